@@ -1,0 +1,29 @@
+# Compile options of the suite's own targets; all packages use this one function.
+
+option(PCRB_WERROR "Treat warnings as errors" OFF)
+set(PCRB_SANITIZE "" CACHE STRING "Sanitizers for all targets, e.g. address,undefined")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+find_program(PCRB_CCACHE ccache)
+if(PCRB_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER ${PCRB_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PCRB_CCACHE})
+endif()
+
+# Sets C++17, warnings and reproducible floating point on a target.
+function(pcrb_set_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off)
+  if(PCRB_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(PCRB_SANITIZE)
+    target_compile_options(${target} PRIVATE
+      -fsanitize=${PCRB_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+    target_link_options(${target} PUBLIC -fsanitize=${PCRB_SANITIZE})
+  endif()
+endfunction()

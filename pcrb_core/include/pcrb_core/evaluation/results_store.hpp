@@ -1,0 +1,72 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/evaluation/result.hpp"
+
+namespace pcrb {
+
+/// A results store that cannot be opened, read or written, or does not fit what is asked of it.
+class StoreError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The results of one run: `<run>/results.sqlite` (WAL, synchronous FULL, `user_version` 1).
+///
+/// Every add() is committed and on disk when it returns. Killed at any moment, the store keeps all
+/// that was added. Not thread-safe; one writer per run folder (a second one is refused).
+class ResultsStore {
+ public:
+  enum class Access { kReadOnly, kReadWrite };
+
+  /// Opens the store of a run folder; with kReadWrite folder and store are made where missing.
+  ///
+  /// @throws StoreError  naming the file: not a database, another `user_version`, held by another
+  ///                     writer, missing (read-only), permissions, full disk.
+  ResultsStore(const std::string& run_folder, Access access);
+  ~ResultsStore();
+  ResultsStore(ResultsStore&&) noexcept;
+  ResultsStore& operator=(ResultsStore&&) noexcept;
+
+  /// The run table. Empty for a new store.
+  std::map<std::string, std::string> runInfo() const;
+
+  /// Writes the run table of a new store, in one transaction.
+  /// @throws StoreError  if the table has rows already.
+  void setRunInfo(const std::map<std::string, std::string>& info);
+
+  /// Adds or replaces one value of the run table: for what is only known later.
+  void updateRunInfo(const std::string& key, const std::string& value);
+
+  /// Notes a start of the server; the session ends with endSession or stays open after a kill.
+  void beginSession(double started, const std::string& host, int pid);
+  void endSession(double ended);
+
+  /// Commits one result.
+  /// @throws StoreError  if the problem has a result already, or on any failure to write.
+  void add(const Result& result);
+
+  /// Keys of all stored results.
+  std::set<ProblemKey> finished() const;
+
+  /// All results, ordered by data set, sequence, kind, problem id.
+  std::vector<Result> results() const;
+
+  /// Writes `results.csv` (all columns of the result table, NULL as empty field) beside the store,
+  /// to a temporary name, then renames.
+  void exportCsv() const;
+
+  std::string path() const;  ///< of the database file
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pcrb

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace pcrb {
+
+/// Quantile by linear interpolation between order statistics, at position q · (n − 1).
+///
+/// @param sorted  ascending, not empty.
+/// @param q       in [0, 1].
+double quantile(const std::vector<double>& sorted, double q);
+
+/// The paper's statistics of a set of errors; NaN where there is no value.
+struct Statistics {
+  std::size_t count = 0;
+  double median = 0.0;
+  double q75 = 0.0;
+  double q95 = 0.0;
+  double mean = 0.0;
+  double stddev = 0.0;  ///< with n in the denominator
+};
+
+/// Statistics of finite values in any order; the result does not depend on the order.
+Statistics describe(std::vector<double> values);
+
+}  // namespace pcrb

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "pcrb_core/point_cloud.hpp"
+
+namespace pcrb {
+
+struct PcdReadOptions {
+  int threads = 1;  ///< >= 1; the result does not depend on it
+};
+
+/// Reads a PCD file: ascii, binary or binary_compressed; any extra or padding (`_`) fields; SIZE 4
+/// and 8 floats; organized or not; CRLF or LF; final newline or not.
+///
+/// Coordinates are read as double. Points with a NaN or infinite coordinate are left out and
+/// counted. The field `intensity` is kept where the file has one; VIEWPOINT becomes `viewpoint`.
+/// Memory is bounded by the file's size, whatever its header claims.
+///
+/// @throws InvalidFile  with file and line, what was found and what was expected.
+DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options = {});
+
+/// The same from memory; `name` stands for the path in messages.
+DatasetCloud parsePcd(const char* begin, const char* end, const std::string& name,
+                      const PcdReadOptions& options = {});
+
+/// Writes ASCII PCD v0.7, fields x y z (SIZE 4 4 4, TYPE F F F), each coordinate in the shortest
+/// form that reads back to the same double, VIEWPOINT = translation and quaternion (w x y z) of
+/// `viewpoint`.
+///
+/// Writes to a temporary name in the same folder, then renames. Intensity is not written.
+/// @throws InvalidFile  if the file cannot be written completely.
+void writePcd(const std::string& path, const DatasetCloud& cloud);
+
+}  // namespace pcrb

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pcrb_core/problem/problem.hpp"
+
+namespace pcrb {
+
+struct Range {
+  double min = 0.0;
+  double max = 0.0;
+};
+
+/// Bounds of the magnitude of random perturbations.
+struct PerturbationBounds {
+  Range translation;   ///< m
+  Range rotation_deg;  ///< degrees
+};
+
+/// What is the same for all sequences of a data set.
+struct Dataset {
+  std::string name;
+  double overlap_distance = 0.2;  ///< m
+  double voxel_leaf = 0.2;        ///< m
+  PerturbationBounds local{{0, 3}, {0, 30}};
+  PerturbationBounds global{{5, 20}, {45, 180}};
+  std::string sensor;                        ///< for the report
+  std::vector<std::string> characteristics;  ///< for the report: indoor, outdoor, structured …
+
+  const PerturbationBounds& bounds(Kind kind) const {
+    return kind == Kind::kLocal ? local : global;
+  }
+};
+
+/// Which perturbation bounds the four published data sets have: those measured in the published
+/// problem files, or those of upstream's own note (DESIGN §3).
+enum class BoundsSource { kMeasured, kNote };
+
+/// Parameters of a data set: built in for eth, planetary, tum and kaist; overridden, key by key, by
+/// `<root>/<name>/dataset.yaml` where that file exists; else the defaults of Dataset.
+///
+/// @throws InvalidFile  with file and line for unknown keys, wrong types and impossible values.
+Dataset loadDataset(const std::string& root, const std::string& name,
+                    BoundsSource bounds = BoundsSource::kMeasured);
+
+/// One problem file and the folder of its clouds.
+struct SequenceFiles {
+  std::string data_set;  ///< folder below the root
+  std::string sequence;  ///< name of the problem file without its `_local.txt` or `_global.txt`
+  Kind kind = Kind::kLocal;
+  std::string problem_file;  ///< path
+  std::string cloud_folder;  ///< path; `p2at_met` for the sequence `planetary_map`
+};
+
+/// All problem files below a root in the common layout, `<root>/<data set>/<sequence>_<kind>.txt`,
+/// sorted by data set, sequence, kind.
+///
+/// @throws InvalidFile  if the root is no readable folder.
+std::vector<SequenceFiles> findSequences(const std::string& root);
+
+}  // namespace pcrb

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace pcrb {
+
+/// Rigid transform in double. A variable's name says its frames: p_target = T_target_source ·
+/// p_source.
+using Transform = Eigen::Isometry3d;
+
+/// Tolerance of requireRigid: the largest ‖RᵀR − I‖ (Frobenius) of a rigid transform.
+constexpr double kRigidTolerance = 1e-6;
+
+/// Transform of the first three rows [R | t] of a 4 × 4 matrix, row-major entries, R kept as it is.
+///
+/// @throws InvalidProblem  if an entry is not finite, ‖RᵀR − I‖ > kRigidTolerance, or det R < 0.
+Transform requireRigid(const Eigen::Matrix<double, 3, 4>& rows);
+
+/// Transform of a translation (m) and a quaternion, which is normalised.
+///
+/// @throws InvalidProblem  if an entry is not finite or the quaternion's norm is below 1e-9.
+Transform makeTransform(const Eigen::Vector3d& translation, const Eigen::Quaterniond& rotation);
+
+/// The rotation nearest to a matrix in the Frobenius norm (SVD), with det = +1.
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& matrix);
+
+/// Expresses a transform of data set coordinates in coordinates relative to `local_origin`:
+/// Trans(−o) · T · Trans(o), computed without cancellation of the large terms.
+Transform inLocalFrame(const Transform& T, const Eigen::Vector3d& local_origin);
+
+/// Angle of a rotation in rad, in [0, π]; accurate near 0 and near π.
+double rotationAngle(const Eigen::Matrix3d& R);
+
+}  // namespace pcrb

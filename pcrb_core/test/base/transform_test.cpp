@@ -1,0 +1,44 @@
+#include "pcrb_core/transform.hpp"
+
+#include <gtest/gtest.h>
+
+#include "pcrb_core/error.hpp"
+
+namespace pcrb {
+namespace {
+
+Transform someTransform() {
+  return makeTransform({1.0, -2.0, 0.5}, Eigen::Quaterniond(0.9, 0.1, -0.3, 0.2).normalized());
+}
+
+TEST(Transform, LocalFrameConjugatesWithTheOrigin) {
+  const Transform T = someTransform();
+  const Eigen::Vector3d origin(100.0, -300.0, 200.0);
+  const Eigen::Vector3d p_local(3.0, 4.0, -5.0);
+  const Eigen::Vector3d expected = T * (p_local + origin) - origin;
+  EXPECT_LT((inLocalFrame(T, origin) * p_local - expected).norm(), 1e-12);
+}
+
+TEST(Transform, RejectsMirrorsShearsAndNonFiniteEntries) {
+  Eigen::Matrix<double, 3, 4> rows = someTransform().matrix().topRows<3>();
+  EXPECT_NO_THROW(requireRigid(rows));
+  Eigen::Matrix<double, 3, 4> mirrored = rows;
+  mirrored.col(0) = -mirrored.col(0);
+  EXPECT_THROW(requireRigid(mirrored), InvalidProblem);
+  Eigen::Matrix<double, 3, 4> sheared = rows;
+  sheared(0, 0) += 1e-5;
+  EXPECT_THROW(requireRigid(sheared), InvalidProblem);
+  Eigen::Matrix<double, 3, 4> infinite = rows;
+  infinite(2, 3) = 1.0 / 0.0;
+  EXPECT_THROW(requireRigid(infinite), InvalidProblem);
+}
+
+TEST(Transform, RotationAngleIsAccurateNearZeroAndPi) {
+  for (const double angle : {0.0, 1e-9, 0.5, 3.0, M_PI - 1e-9, M_PI}) {
+    const Eigen::AngleAxisd R(angle, Eigen::Vector3d(1, 2, 3).normalized());
+    EXPECT_NEAR(rotationAngle(R.toRotationMatrix()), angle, 1e-12) << angle;
+  }
+}
+
+}  // namespace
+}  // namespace pcrb
