@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace pcrb_tools {
+
+/// Exit statuses of all offline tools.
+enum ExitStatus : int {
+  kSuccess = 0,
+  kFailure = 1,    ///< something is wrong with the data, the disk or the network
+  kUsageError = 2  ///< something is wrong with the command line
+};
+
+/// Parses the command line and runs a tool: what every offline tool's main ends with.
+///
+/// Arguments that roslaunch appends (`__name:=…`, remappings) are taken away first, which needs no
+/// master; `--help` prints the help and succeeds. An exception becomes one line on standard error,
+/// `TOOL: what is wrong`, where TOOL is argv[0] without its folder. A write to a closed pipe ends
+/// the process as usual.
+///
+/// @param app   the tool's options; its description and its footer are the text of `--help`.
+/// @param body  the work; what it returns is the exit status.
+int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+}  // namespace pcrb_tools
