@@ -1,0 +1,116 @@
+#include "pcrb_core/io/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "pcrb_core/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace pcrb {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const std::string& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+std::size_t entriesIn(const std::string& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+/// Lets this process write files of at most `bytes` bytes while it lives.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(AtomicFile, AppearsWithItsWholeContentOnCommitOnly) {
+  const pcrb_test::TemporaryFolder folder;
+  const std::string path = folder.file("a.txt");
+  const std::string large(1000000, 'x');
+  AtomicFile file(path);
+  file.write("head\n");
+  file.write(large);
+  EXPECT_FALSE(fs::exists(path));
+  file.commit();
+  EXPECT_EQ(contentOf(path), "head\n" + large);
+  EXPECT_EQ(entriesIn(folder.path()), 1u);
+}
+
+TEST(AtomicFile, WithoutCommitTheOldFileStaysAndNothingElse) {
+  const pcrb_test::TemporaryFolder folder;
+  const std::string path = folder.file("a.txt");
+  writeFileAtomically(path, "old");
+  { AtomicFile(path).write(std::string(1000000, 'x')); }
+  EXPECT_EQ(contentOf(path), "old");
+  EXPECT_EQ(entriesIn(folder.path()), 1u);
+}
+
+TEST(AtomicFile, FailedWriteNamesTheFileAndLeavesNothing) {
+  const pcrb_test::TemporaryFolder folder;
+  const std::string path = folder.file("a.txt");
+  const FileSizeLimit limit(4096);
+  try {
+    writeFileAtomically(path, std::string(1000000, 'x'));
+    FAIL() << "wrote more than the limit";
+  } catch (const InvalidFile& error) {
+    EXPECT_EQ(std::string(error.what()), path + ": cannot write: File too large");
+  }
+  EXPECT_EQ(entriesIn(folder.path()), 0u);
+}
+
+TEST(AtomicFile, RejectsAFolderThatDoesNotExist) {
+  const pcrb_test::TemporaryFolder folder;
+  EXPECT_THROW(AtomicFile(folder.file("none/a.txt")), InvalidFile);
+}
+
+TEST(AtomicFile, RejectsFoldersAndSpecialFilesAsTargets) {
+  const pcrb_test::TemporaryFolder folder;
+  EXPECT_THROW(AtomicFile{folder.path()}, InvalidFile);
+  EXPECT_THROW(AtomicFile{"/dev/null"}, InvalidFile);
+}
+
+TEST(AtomicFile, FollowsALinkInsteadOfReplacingIt) {
+  const pcrb_test::TemporaryFolder folder;
+  writeFileAtomically(folder.file("real"), "old");
+  fs::create_symlink("real", folder.file("link"));
+  writeFileAtomically(folder.file("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder.file("link")));
+  EXPECT_EQ(contentOf(folder.file("real")), "new");
+}
+
+TEST(AtomicFile, GetsTheModeThatTheUmaskGives) {
+  const pcrb_test::TemporaryFolder folder;
+  const mode_t before = umask(022);
+  writeFileAtomically(folder.file("a"), "");
+  umask(before);
+  EXPECT_EQ(fs::status(folder.file("a")).permissions(), static_cast<fs::perms>(0644));
+}
+
+}  // namespace
+}  // namespace pcrb

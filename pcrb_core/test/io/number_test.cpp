@@ -1,0 +1,77 @@
+#include "pcrb_core/io/number.hpp"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+namespace pcrb {
+namespace {
+
+TEST(Number, ReadsEveryDecimalNotation) {
+  EXPECT_EQ(parseDouble("8045123.123456789"), 8045123.123456789);
+  EXPECT_EQ(parseDouble("-1.5e-3"), -0.0015);
+  EXPECT_EQ(parseDouble("+2"), 2.0);
+  EXPECT_EQ(parseDouble("1E2"), 100.0);
+  EXPECT_EQ(parseDouble(".5"), 0.5);
+  EXPECT_EQ(parseDouble("5."), 5.0);
+  EXPECT_TRUE(std::isnan(*parseDouble("nan")));
+  EXPECT_TRUE(std::isnan(*parseDouble("-NaN")));
+  EXPECT_EQ(parseDouble("-inf"), -std::numeric_limits<double>::infinity());
+}
+
+TEST(Number, RejectsWhatIsNoNumberOrMoreThanANumber) {
+  for (const char* text : {"", "-", "+", ".", "abc", "1.5f", "1,5", "0x10", "1 ", " 1", "+-1",
+                           "--1", "1e", "++1", "1.2.3"}) {
+    EXPECT_FALSE(parseDouble(text)) << text;
+  }
+}
+
+TEST(Number, RejectsWhatDoubleCannotHold) {
+  EXPECT_FALSE(parseDouble("1e400"));
+  EXPECT_FALSE(parseDouble("-1e400"));
+  EXPECT_FALSE(parseUnsigned("18446744073709551616"));
+  EXPECT_FALSE(parseInt("9223372036854775808"));
+}
+
+TEST(Number, IntegersAreWholeTexts) {
+  EXPECT_EQ(parseInt("-12"), -12);
+  EXPECT_EQ(parseUnsigned("18446744073709551615"), 18446744073709551615u);
+  for (const char* text : {"", "1.0", "1 ", "1e3", "-"}) EXPECT_FALSE(parseInt(text)) << text;
+  EXPECT_FALSE(parseUnsigned("-1"));
+}
+
+TEST(Number, ShortestTextReadsBackToTheSameBits) {
+  std::mt19937_64 bits(7);
+  for (int i = 0; i < 100000; ++i) {
+    const std::uint64_t pattern = bits();
+    double value = 0.0;
+    std::memcpy(&value, &pattern, sizeof(value));
+    if (!std::isfinite(value)) continue;
+    const auto back = parseDouble(formatShortest(value));
+    ASSERT_TRUE(back) << formatShortest(value);
+    ASSERT_EQ(std::memcmp(&value, &*back, sizeof(value)), 0) << formatShortest(value);
+  }
+  EXPECT_EQ(formatShortest(0.1), "0.1");
+  EXPECT_EQ(formatShortest(8045123.123456789), "8045123.123456789");
+}
+
+TEST(Number, FixedTextHasItsDecimals) {
+  EXPECT_EQ(formatFixed(0.40999, 4), "0.4100");
+  EXPECT_EQ(formatFixed(-1.0, 2), "-1.00");
+  EXPECT_EQ(formatFixed(std::numeric_limits<double>::max(), 1).size(), 311u);
+}
+
+TEST(Number, DoesNotFollowTheLocale) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "no de_DE.UTF-8 here";
+  EXPECT_EQ(parseDouble("1.5"), 1.5);
+  EXPECT_EQ(formatShortest(1.5), "1.5");
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+}  // namespace
+}  // namespace pcrb
