@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pcrb {
+
+/// Walks over the lines of a text in memory (LF or CRLF, final newline or not) and knows where it
+/// is.
+class LineReader {
+ public:
+  /// @param name  the file's path, for messages.
+  LineReader(std::string_view text, std::string name);
+
+  /// Takes the next line, without its end; false behind the last one.
+  bool next(std::string_view& line);
+
+  /// Number of the line taken last, from 1; 0 before the first.
+  std::size_t lineNumber() const { return line_number_; }
+
+  /// What follows the line taken last.
+  std::string_view rest() const { return rest_; }
+
+  const std::string& name() const { return name_; }
+
+  /// @throws InvalidFile  always, for the line taken last.
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
+
+ private:
+  std::string_view rest_;
+  std::string name_;
+  std::size_t line_number_ = 0;
+};
+
+/// Replaces `fields` by the parts of a line between runs of spaces and tabs.
+void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields);
+
+/// Replaces `fields` by the parts of a line between separators, blanks around them removed; an
+/// empty line is one empty field.
+void splitAt(char separator, std::string_view line, std::vector<std::string_view>& fields);
+
+/// The text without spaces and tabs at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// A text in quotes for a message: shortened to 40 bytes, what is not printable ASCII as \xNN.
+std::string inQuotes(std::string_view text);
+
+}  // namespace pcrb
