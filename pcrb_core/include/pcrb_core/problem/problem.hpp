@@ -15,7 +15,7 @@ Kind kindFromString(const std::string& text);
 
 /// One row of a problem file.
 struct Problem {
-  std::string id;        ///< official id, 13 or 14 digits
+  std::string id;        ///< official id, decimal digits
   std::string source;    ///< file name in the sequence's folder
   std::string target;    ///< file name in the sequence's folder
   double overlap = 0.0;  ///< fraction of source points with a target point nearby, in [0, 1]
