@@ -71,4 +71,12 @@ std::string formatFixed(double value, int decimals) {
   return text;
 }
 
+std::string formatScientific(double value, int decimals) {
+  std::string text(16 + static_cast<std::size_t>(decimals), '\0');  // sign, digit, point, e-308
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value,
+                                    std::chars_format::scientific, decimals);
+  text.resize(static_cast<std::size_t>(result.ptr - text.data()));
+  return text;
+}
+
 }  // namespace pcrb

@@ -65,6 +65,11 @@ TEST(Number, FixedTextHasItsDecimals) {
   EXPECT_EQ(formatFixed(std::numeric_limits<double>::max(), 1).size(), 311u);
 }
 
+TEST(Number, ScientificTextHasItsDecimals) {
+  EXPECT_EQ(formatScientific(1.7e308, 2), "1.70e+308");
+  EXPECT_EQ(formatScientific(-std::numeric_limits<double>::max(), 20).size(), 28u);
+}
+
 TEST(Number, DoesNotFollowTheLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "no de_DE.UTF-8 here";

@@ -5,10 +5,12 @@
 
 namespace pcrb {
 
-/// Quantile by linear interpolation between order statistics, at position q · (n − 1).
+/// Quantile by linear interpolation between order statistics, at position q · (n − 1) (Hyndman and
+/// Fan's type 7, as numpy).
 ///
 /// @param sorted  ascending, not empty.
 /// @param q       in [0, 1].
+/// @throws InvalidParameter  if either is not so (the order is not checked).
 double quantile(const std::vector<double>& sorted, double q);
 
 /// The paper's statistics of a set of errors; NaN where there is no value.
@@ -21,7 +23,9 @@ struct Statistics {
   double stddev = 0.0;  ///< with n in the denominator
 };
 
-/// Statistics of finite values in any order; the result does not depend on the order.
+/// Statistics of finite values in any order; the result does not depend on the order. Magnitudes up
+/// to the largest double do no harm.
+/// @throws InvalidParameter  if a value is not finite.
 Statistics describe(std::vector<double> values);
 
 }  // namespace pcrb

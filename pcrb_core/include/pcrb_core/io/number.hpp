@@ -32,4 +32,7 @@ std::string formatShortest(double value);
 void appendFixed(std::string& text, double value, int decimals);
 std::string formatFixed(double value, int decimals);
 
+/// A number in scientific notation, e.g. `1.70e+308`, rounded like formatFixed.
+std::string formatScientific(double value, int decimals);
+
 }  // namespace pcrb
