@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "pcrb_core/error.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/transform.hpp"
 
@@ -14,10 +14,16 @@ namespace pcrb {
 /// What an alignment came to.
 struct RegistrationResult {
   Transform T_target_source = Transform::Identity();  ///< p_target = T_target_source · p_source
-  bool converged = false;
-  std::string reason;  ///< why not, where it did not converge; else empty
+  bool converged = false;  ///< false: the method's best pose, but its own criterion was not met
+  std::string reason;      ///< why not, where it did not converge; else empty
   int iterations = 0;
-  double solver_time = 0.0;  ///< s, steady clock
+  double solver_time = 0.0;  ///< s of align(), steady clock; set by align() itself
+};
+
+/// A method has no answer for a pair of clouds, say for lack of matching features.
+class RegistrationFailed : public Error {
+ public:
+  using Error::Error;
 };
 
 /// Parameters of a method by name, as text; each method checks its own.
@@ -26,34 +32,55 @@ using Parameters = std::map<std::string, std::string>;
 /// A registration method. It sees a target, a source and an initial guess, nothing else.
 ///
 /// Deterministic: the same clouds, guess and parameters give the same result at any thread count.
+/// Methods implement prepareTarget() and alignSource(); what is common to all is done here.
 class Registration {
  public:
   virtual ~Registration() = default;
 
   /// Sets the cloud that stays, and does all the work that depends on it alone (trees, covariances,
-  /// features). Its work is kept until the next call.
-  virtual void setTarget(std::shared_ptr<const PointCloud> target) = 0;
+  /// features). That work is kept until the next call; after an error there is no target.
+  ///
+  /// @throws InvalidProblem  if the cloud is null, empty, has a point that is not finite, or has
+  /// too few points for the method.
+  void setTarget(const std::shared_ptr<const PointCloud>& target);
 
   /// Aligns a source with the target.
   ///
-  /// @param source    same local origin as the target.
+  /// @param source  same local origin as the target.
   /// @param T_target_source_guess  where to start; methods that need no guess ignore it.
-  /// @throws Error  for clouds that cannot be aligned at all (too few points after filtering).
-  virtual RegistrationResult align(const PointCloud& source,
-                                   const Transform& T_target_source_guess) = 0;
+  /// @throws InvalidProblem  for input that cannot be aligned: no target, another local origin,
+  /// points or a guess that are not finite, too few points.
+  /// @throws RegistrationFailed  if the method has no answer.
+  RegistrationResult align(const PointCloud& source, const Transform& T_target_source_guess);
+
+ protected:
+  /// Does the work that depends on the target alone. Both clouds of a method come in double-checked
+  /// and relative to one origin near the target's centroid, whatever the data set's coordinates.
+  virtual void prepareTarget(const PointCloud& target) = 0;
+
+  /// Aligns a source with the target prepared last; guess and result are relative to its origin.
+  virtual RegistrationResult alignSource(const PointCloud& source,
+                                         const Transform& T_target_source_guess) = 0;
+
+ private:
+  bool has_target_ = false;
+  Eigen::Vector3d local_origin_ = Eigen::Vector3d::Zero();    // m, of the target as given
+  Eigen::Vector3d working_origin_ = Eigen::Vector3d::Zero();  // m, relative to local_origin_
 };
 
 /// Makes a method by its name.
 ///
-/// @param parameters  unknown names, wrong types and impossible values are errors, all listed at
-/// once.
-/// @throws InvalidParameter  if the method is unknown (the message lists the known ones) or a
-/// parameter
-///                           is wrong.
+/// @throws InvalidParameter  if the method is unknown (the message lists the known ones), or with
+/// all unknown names, wrong types and impossible values in one message.
 std::unique_ptr<Registration> makeRegistration(const std::string& method,
                                                const Parameters& parameters);
 
 /// Names that makeRegistration knows, sorted.
 std::vector<std::string> registrationMethods();
+
+/// All parameters of a method with their default values.
+///
+/// @throws InvalidParameter  if the method is unknown.
+Parameters registrationDefaults(const std::string& method);
 
 }  // namespace pcrb

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/registration/parameter_reader.hpp"
+#include "pcrb_core/registration/registration.hpp"
+
+namespace pcrb {
+
+/// Makes a method; it reads all its parameters from the reader.
+using RegistrationFactory = std::function<std::unique_ptr<Registration>(ParameterReader&)>;
+
+/// Makes a method known to makeRegistration. Two methods of one name are an error of whoever asks
+/// for that name. Returns true, so that it can initialise a variable of namespace scope.
+bool registerMethod(const std::string& name, RegistrationFactory factory);
+
+/// Loads a shared library with methods of a user's own.
+///
+/// @param path  of the library, or its bare name (`libmy_methods.so`) where the loader finds it.
+/// @return      names of the methods that it registered, sorted; the same if it was loaded before.
+/// @throws InvalidParameter  if it cannot be loaded, registers no method, or one whose name is
+/// taken.
+std::vector<std::string> loadRegistrationLibrary(const std::string& path);
+
+}  // namespace pcrb
+
+#define PCRB_DETAIL_JOIN_(a, b) a##b
+#define PCRB_DETAIL_JOIN(a, b) PCRB_DETAIL_JOIN_(a, b)
+
+/// The one line that makes a class known by a name: `PCRB_REGISTER_METHOD("mine", MyMethod)`, at
+/// namespace scope in a .cpp file. The class derives from pcrb::Registration and is constructed
+/// from a pcrb::ParameterReader&.
+#define PCRB_REGISTER_METHOD(name, Class)                                              \
+  [[maybe_unused]] static const bool PCRB_DETAIL_JOIN(pcrb_registered_, __LINE__) =    \
+      ::pcrb::registerMethod(name, [](::pcrb::ParameterReader& reader) {               \
+        return std::unique_ptr<::pcrb::Registration>(std::make_unique<Class>(reader)); \
+      });

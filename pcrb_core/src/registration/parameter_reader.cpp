@@ -1,0 +1,106 @@
+#include "pcrb_core/registration/parameter_reader.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/parallel.hpp"
+
+namespace pcrb {
+namespace {
+
+constexpr int kMaxThreads = 256;
+
+template <class Number>
+std::string describeRange(const char* type, Number min, Number max) {
+  const bool has_min = min > std::numeric_limits<Number>::lowest();
+  const bool has_max = max < std::numeric_limits<Number>::max();
+  std::string text = type;
+  if (has_min) text += (has_max ? " from " : " of at least ") + formatShortest(min);
+  if (has_max) text += (has_min ? " to " : " of at most ") + formatShortest(max);
+  return text;
+}
+
+}  // namespace
+
+const std::string* ParameterReader::find(const std::string& name,
+                                         const std::string& default_value) {
+  defaults_[name] = default_value;
+  const auto found = parameters_.find(name);
+  return found == parameters_.end() ? nullptr : &found->second;
+}
+
+void ParameterReader::refuse(const std::string& name, const std::string& found,
+                             const std::string& expected) {
+  mistakes_.push_back(name + ": found " + inQuotes(found) + ", expected " + expected);
+}
+
+double ParameterReader::number(const std::string& name, double default_value, double min,
+                               double max) {
+  const std::string* text = find(name, formatShortest(default_value));
+  if (text == nullptr) return default_value;
+  const auto value = parseDouble(*text);
+  if (value && *value >= min && *value <= max) return *value;
+  refuse(name, *text, describeRange("a number", min, max));
+  return default_value;
+}
+
+double ParameterReader::positive(const std::string& name, double default_value) {
+  const std::string* text = find(name, formatShortest(default_value));
+  if (text == nullptr) return default_value;
+  const auto value = parseDouble(*text);
+  if (value && *value > 0.0 && std::isfinite(*value)) return *value;
+  refuse(name, *text, "a number greater than 0");
+  return default_value;
+}
+
+int ParameterReader::integer(const std::string& name, int default_value, int min, int max) {
+  const std::string* text = find(name, std::to_string(default_value));
+  if (text == nullptr) return default_value;
+  const auto value = parseInt(*text);
+  if (value && *value >= min && *value <= max) return static_cast<int>(*value);
+  refuse(name, *text, describeRange("an integer", min, max));
+  return default_value;
+}
+
+bool ParameterReader::boolean(const std::string& name, bool default_value) {
+  const std::string* text = find(name, default_value ? "true" : "false");
+  if (text == nullptr) return default_value;
+  if (*text == "true") return true;
+  if (*text == "false") return false;
+  refuse(name, *text, "true or false");
+  return default_value;
+}
+
+std::uint64_t ParameterReader::seed(const std::string& name, std::uint64_t default_value) {
+  const std::string* text = find(name, std::to_string(default_value));
+  if (text == nullptr) return default_value;
+  if (const auto value = parseUnsigned(*text)) return *value;
+  refuse(name, *text, "an integer from 0 to 2^64 - 1");
+  return default_value;
+}
+
+int ParameterReader::threads() {
+  const int threads = integer("threads", 0, 0, kMaxThreads);
+  return threads == 0 ? processorCount() : threads;
+}
+
+void ParameterReader::check(const std::string& method) const {
+  std::vector<std::string> mistakes = mistakes_;
+  for (const auto& [name, value] : parameters_) {
+    if (defaults_.count(name) == 0) {
+      mistakes.push_back(name + ": no parameter of this method (found " + inQuotes(value) + ")");
+    }
+  }
+  if (mistakes.empty()) return;
+  std::ostringstream message;
+  message << "method " << method << ": " << mistakes.size()
+          << (mistakes.size() == 1 ? " wrong parameter" : " wrong parameters");
+  for (const auto& mistake : mistakes) message << "\n  " << mistake;
+  message << "\n  its parameters:";
+  for (const auto& [name, value] : defaults_) message << " " << name << "=" << value;
+  throw InvalidParameter(message.str());
+}
+
+}  // namespace pcrb

@@ -1,0 +1,203 @@
+// One suite for all registered methods: what is true of each of them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "pcrb_core/registration/method_parameters.hpp"
+#include "pcrb_core/registration/registration.hpp"
+#include "support/scenes.hpp"
+
+namespace pcrb {
+namespace {
+
+using pcrb_test::hall;
+using pcrb_test::shared;
+using pcrb_test::transformed;
+
+constexpr double kDegree = M_PI / 180.0;
+
+bool isGlobal(const std::string& method) {
+  return std::set<std::string>{"fgr", "ransac", "teaser"}.count(method) > 0;
+}
+
+double angleBetween(const Transform& a, const Transform& b) {
+  return rotationAngle(a.linear().transpose() * b.linear());
+}
+
+/// Distance of the images of a point, m.
+double distanceAt(const Eigen::Vector3d& point, const Transform& a, const Transform& b) {
+  return (a * point - b * point).norm();
+}
+
+class Method : public ::testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Registration> make(const Parameters& parameters = {}) const {
+    return makeRegistration(GetParam(), parameters);
+  }
+
+  RegistrationResult align(const PointCloud& target, const PointCloud& source,
+                           const Transform& guess = Transform::Identity()) const {
+    const auto method = make();
+    method->setTarget(shared(target));
+    return method->align(source, guess);
+  }
+
+  /// A motion that the method's start allows.
+  Transform motion(std::uint64_t seed) const {
+    Random random(seed);
+    return isGlobal(GetParam()) ? pcrb_test::randomMotion(random, 120 * kDegree, 6.0)
+                                : pcrb_test::randomMotion(random, 5 * kDegree, 0.3);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, Method, ::testing::ValuesIn(registrationMethods()),
+                         [](const auto& method) { return method.param; });
+
+TEST_P(Method, LeavesACloudOnItself) {
+  const auto result = align(hall(1), hall(1));
+  EXPECT_LT(angleBetween(result.T_target_source, Transform::Identity()), 0.2 * kDegree);
+  EXPECT_LT(result.T_target_source.translation().norm(), 0.03);
+  EXPECT_TRUE(result.converged) << result.reason;
+}
+
+TEST_P(Method, RecoversKnownMotions) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Transform P = motion(seed);
+    const auto result = align(hall(1), transformed(hall(2), P));
+    EXPECT_LT(angleBetween(result.T_target_source, P.inverse()), 1.5 * kDegree) << seed;
+    EXPECT_LT(distanceAt(P.translation(), result.T_target_source, P.inverse()), 0.1) << seed;
+    EXPECT_GT(result.iterations, 0);
+    EXPECT_GT(result.solver_time, 0.0);
+    EXPECT_EQ(result.converged, result.reason.empty()) << result.reason;
+  }
+}
+
+TEST_P(Method, StartsFromTheInitialGuess) {
+  if (isGlobal(GetParam())) GTEST_SKIP() << "global methods need no guess";
+  Random random(4);
+  const Transform far = pcrb_test::randomMotion(random, 100 * kDegree, 20.0);
+  const Transform guess = motion(5) * far.inverse();
+  const auto result = align(hall(1), transformed(hall(2), far), guess);
+  EXPECT_LT(angleBetween(result.T_target_source, far.inverse()), 1.5 * kDegree);
+  EXPECT_LT(distanceAt(far.translation(), result.T_target_source, far.inverse()), 0.1);
+}
+
+TEST_P(Method, IsAsAccurateFarFromTheOrigin) {
+  const Transform P = motion(2);
+  const Transform shift(Eigen::Translation3d(-900.0, 1100.0, 400.0));
+  PointCloud target = transformed(hall(1), shift);
+  PointCloud source = transformed(hall(2), shift * P);
+  target.local_origin = source.local_origin = {702000.0, 8045000.0, 100.0};
+  const Transform expected = shift * P.inverse() * shift.inverse();
+  const auto result = align(target, source);
+  EXPECT_LT(angleBetween(result.T_target_source, expected), 1.5 * kDegree);
+  EXPECT_LT(distanceAt(shift * P.translation(), result.T_target_source, expected), 0.1);
+}
+
+TEST_P(Method, GivesTheSameBitsAtAnyThreadCount) {
+  const auto source = transformed(hall(2), motion(3));
+  std::set<std::string> poses;
+  for (const char* threads : {"1", "2", "5"}) {
+    const auto method = make({{"threads", threads}});
+    method->setTarget(shared(hall(1)));
+    const Transform T = method->align(source, Transform::Identity()).T_target_source;
+    const auto* bytes = reinterpret_cast<const char*>(T.data());
+    poses.emplace(bytes, bytes + 16 * sizeof(double));
+  }
+  EXPECT_EQ(poses.size(), 1U);
+}
+
+TEST_P(Method, IsNotInfluencedByWhatItAlignedBefore) {
+  const auto first = transformed(hall(2), motion(1));
+  const auto second = transformed(hall(3), motion(2));
+  const auto used = make();
+  used->setTarget(shared(hall(4)));
+  used->align(second, Transform::Identity());
+  used->setTarget(shared(hall(1)));
+  used->align(first, Transform::Identity());
+  const Transform again = used->align(second, Transform::Identity()).T_target_source;
+  const Transform fresh = align(hall(1), second).T_target_source;
+  EXPECT_TRUE(again.matrix() == fresh.matrix());
+}
+
+TEST_P(Method, RefusesTooFewPoints) {
+  PointCloud few;
+  few.points = {{0, 0, 0}, {5, 0, 0}};
+  const auto method = make();
+  EXPECT_THROW(method->setTarget(shared(few)), InvalidProblem);
+  EXPECT_THROW(method->align(hall(1), Transform::Identity()), InvalidProblem) << "no target";
+  EXPECT_THROW(method->setTarget(shared({})), InvalidProblem);
+  EXPECT_THROW(method->setTarget(nullptr), InvalidProblem);
+  method->setTarget(shared(hall(1)));
+  EXPECT_THROW(method->align(few, Transform::Identity()), InvalidProblem);
+  EXPECT_THROW(method->align({}, Transform::Identity()), InvalidProblem);
+}
+
+TEST_P(Method, RefusesWhatIsNotFinite) {
+  PointCloud broken = hall(1);
+  broken.points[17].y() = std::nanf("");
+  const auto method = make();
+  EXPECT_THROW(method->setTarget(shared(broken)), InvalidProblem);
+  method->setTarget(shared(hall(1)));
+  EXPECT_THROW(method->align(broken, Transform::Identity()), InvalidProblem);
+  Transform guess = Transform::Identity();
+  guess.translation().z() = std::nan("");
+  EXPECT_THROW(method->align(hall(2), guess), InvalidProblem);
+  guess = Transform(Eigen::UniformScaling<double>(2.0));
+  EXPECT_THROW(method->align(hall(2), guess), InvalidProblem);
+}
+
+TEST_P(Method, RefusesASourceWithAnotherLocalOrigin) {
+  PointCloud source = hall(2);
+  source.local_origin = {100, 0, 0};
+  const auto method = make();
+  method->setTarget(shared(hall(1)));
+  EXPECT_THROW(method->align(source, Transform::Identity()), InvalidProblem);
+}
+
+TEST_P(Method, GivesARigidPoseOrAnErrorWithoutOverlap) {
+  const Transform away(Eigen::Translation3d(300.0, 0.0, 0.0));
+  PointCloud other = hall(1);
+  other.points.resize(12000);  // the floor alone
+  try {
+    const auto result = align(hall(1), transformed(other, away));
+    EXPECT_NO_THROW(requireRigid(result.T_target_source.matrix().topRows<3>()));
+    EXPECT_EQ(result.converged, result.reason.empty()) << result.reason;
+  } catch (const RegistrationFailed& error) {
+    EXPECT_STRNE(error.what(), "");
+  }
+}
+
+TEST_P(Method, PutsAPlaneOnAPlaneOrSaysThatItCannot) {
+  Random random(6);
+  const Transform P = pcrb_test::randomMotion(random, 2 * kDegree, 0.1);
+  try {
+    const auto result = align(pcrb_test::plane(1), transformed(pcrb_test::plane(2), P));
+    const Transform left = result.T_target_source * P;
+    EXPECT_NO_THROW(requireRigid(left.matrix().topRows<3>()));
+    for (const double x : {-7.0, 7.0})
+      EXPECT_LT(std::abs((left * Eigen::Vector3d(x, 3, 0)).z()), 0.1);
+  } catch (const RegistrationFailed& error) {
+    EXPECT_STRNE(error.what(), "");
+  }
+}
+
+TEST_P(Method, HasItsDefaultsInItsParameterFile) {
+  const std::string path =
+      std::string(PCRB_SOURCE_DIR) + "/../launch/config/methods/" + GetParam() + ".yaml";
+  EXPECT_EQ(loadMethodParameters(path, "eth"), registrationDefaults(GetParam()));
+  Parameters tum = registrationDefaults(GetParam());
+  tum["voxel_leaf"] = "0.1";
+  EXPECT_EQ(loadMethodParameters(path, "tum"), tum);
+  EXPECT_NO_THROW(make(tum));
+}
+
+TEST_P(Method, RefusesUnknownParameters) {
+  EXPECT_THROW(make({{"voxel_laef", "0.2"}}), InvalidParameter);
+  EXPECT_THROW(make({{"voxel_leaf", "-0.2"}}), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace pcrb
