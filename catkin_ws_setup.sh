@@ -1,0 +1,225 @@
+#!/usr/bin/env bash
+# Sets up this checkout as a catkin workspace, builds it, tests it, shows it.
+#
+#   catkin_ws_setup.sh deps      installs the Debian packages that are missing (apt-get, as root or by sudo)
+#   catkin_ws_setup.sh build     deps, links to the packages in src/pcrb/, catkin_make
+#   catkin_ws_setup.sh test      build, then all unit tests and rostests; --long adds those that take minutes
+#   catkin_ws_setup.sh demo      build, then a benchmark run on a small synthetic sequence
+#   catkin_ws_setup.sh clean     removes what the others made in this checkout
+#   catkin_ws_setup.sh help      prints this text
+#
+# Every subcommand does what it needs before itself and can be repeated. Warnings are errors with
+# PCRB_WERROR=ON; JOBS=N sets the number of parallel compilers.
+set -euo pipefail
+
+root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd -P)
+links=$root/src/pcrb
+packages=(launch pcrb_core pcrb_msgs pcrb_server pcrb_tools)
+
+needed_debian_packages=(
+  catkin ccache cmake g++ make
+  libros-rosgraph-msgs-dev librosbag-dev librostest-dev libstd-srvs-dev libtf2-dev libtf2-ros-dev
+  libvisualization-msgs-dev python3-rosnode python3-rospy python3-rostest ros-base-dev
+  libarchive-dev libbenchmark-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
+  libnanoflann-dev libpcl-dev libsqlite3-dev libyaml-cpp-dev
+)
+# Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
+ci_debian_packages=(catkin-lint clang clang-format clang-tidy libclang-rt-14-dev shellcheck)
+
+say() { printf '==> %s\n' "$*"; }
+
+fail() {
+  printf 'catkin_ws_setup.sh: %s\n' "$*" >&2
+  exit 1
+}
+
+usage() { sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; }
+
+# --- deps -------------------------------------------------------------------------------------------
+
+require_debian_12() {
+  if ! { grep -qsx 'ID=debian' /etc/os-release && grep -qsx 'VERSION_ID="12"' /etc/os-release; }; then
+    fail "sorry, this sets up Debian 12 only, here is $(sed -n 's/^PRETTY_NAME=//p' /etc/os-release):" \
+      "install what its list needed_debian_packages names in your own way and build with catkin_make"
+  fi
+}
+
+missing_debian_packages() {
+  local package
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
+  done
+}
+
+# apt-get as root, tried once more after a failure: mirrors and locks have bad moments.
+apt_get() {
+  local as_root=()
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || fail "installing packages needs root or sudo"
+    as_root=(sudo)
+  fi
+  local command=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive
+    apt-get -q -o DPkg::Lock::Timeout=300 "$@")
+  "${command[@]}" || {
+    say "apt-get $1 failed, one more try"
+    "${command[@]}"
+  }
+}
+
+install_dependencies() {
+  require_debian_12
+  local missing
+  mapfile -t missing < <(missing_debian_packages "$@")
+  if [ ${#missing[@]} = 0 ]; then
+    say "deps: all $# Debian packages are installed"
+    return
+  fi
+  say "deps: installing ${missing[*]}"
+  apt_get update || fail "apt-get update failed twice (is there a network?)"
+  apt_get install -y --no-install-recommends "${missing[@]}" ||
+    fail "apt-get could not install: ${missing[*]}"
+}
+
+# --- build ------------------------------------------------------------------------------------------
+
+# Prints the workspace whose src/ holds this checkout, or nothing. A folder src with nothing but
+# catkin's spaces beside it is taken for a workspace that is about to be made.
+enclosing_workspace() {
+  local folder=$root workspace others
+  while folder=$(dirname "$folder") && [ "$folder" != / ]; do
+    [ "$(basename "$folder")" = src ] || continue
+    workspace=$(dirname "$folder")
+    others=$(find "$workspace" -mindepth 1 -maxdepth 1 ! -name '.*' ! -name src ! -name build \
+      ! -name devel ! -name install ! -name log ! -name logs -print -quit)
+    if [ -e "$workspace/.catkin_workspace" ] || [ -d "$workspace/.catkin_tools" ] ||
+      grep -qs catkin "$folder/CMakeLists.txt" || { [ -z "$others" ] && [ "$workspace" != "${HOME:-}" ]; }; then
+      echo "$workspace"
+      return
+    fi
+  done
+}
+
+# A link's text climbs to / by the name of every folder above this checkout, checks that it is at /
+# (only there is an etc), and comes down again: from /me/suite/src/pcrb it reads
+# ../../../suite/../../me/../etc/../me/suite/pcrb_msgs. So it leads to the package from here only. catkin
+# follows links, and when this tree is copied into another workspace's src/ it must not find a
+# package through the copied link as well, in the copy or back in the original (a plain
+# ../../pcrb_msgs or /me/suite/pcrb_msgs would lead there): a link that leads nowhere is invisible to it.
+link_text() {
+  local climb='../' folder=$root
+  while [ "$folder" != / ]; do
+    climb+="../../$(basename "$folder")/"
+    folder=$(dirname "$folder")
+  done
+  echo "${climb}../etc/..$root/$1"
+}
+
+link_packages() {
+  local workspace package text
+  workspace=$(enclosing_workspace)
+  if [ -n "$workspace" ]; then
+    rm -rf "$links"
+    fail "this checkout lies in the workspace $workspace: no links are made in its own src/, build it there," \
+      "catkin_make -C $workspace -DPYTHON_EXECUTABLE=/usr/bin/python3"
+  fi
+  mkdir -p "$links"
+  for package in "${packages[@]}"; do
+    text=$(link_text "$package")
+    if [ "$(readlink "$links/$package")" != "$text" ]; then
+      say "link src/pcrb/$package"
+      ln -sfn "$text" "$links/$package"
+    fi
+    [ -e "$links/$package/package.xml" ] || fail "src/pcrb/$package leads nowhere, though it reads $text"
+  done
+}
+
+# A build space that was made elsewhere (a moved or copied checkout) is of no use here.
+drop_foreign_build_space() {
+  local cache=$root/build/CMakeCache.txt
+  if [ -e "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root/src" "$cache"; then
+    say "remove build/ and devel/, which were made in another folder"
+    rm -rf "$root/build" "$root/devel"
+  fi
+}
+
+# One compiler takes up to 2 GB, because of PCL's headers.
+parallel_jobs() {
+  local by_memory by_processors
+  by_memory=$(awk '/^MemAvailable:/ {print int($2 / 2000000)}' /proc/meminfo)
+  by_processors=$(nproc)
+  if [ "$by_memory" -lt 1 ]; then by_memory=1; fi
+  echo "${JOBS:-$((by_memory < by_processors ? by_memory : by_processors))}"
+}
+
+# Debian's ROS and Debian's Python, whatever else the caller's shell has set up.
+set_environment() {
+  export PATH=/usr/bin:$PATH PYTHONNOUSERSITE=1 ROS_IP=127.0.0.1
+  export ROS_HOME=$root/build/ros_home
+  unset ROS_HOSTNAME
+  if [ "${ROS_DISTRO:-Debian}" != Debian ]; then unset ROS_DISTRO; fi
+}
+
+run_catkin_make() {
+  catkin_make -C "$root" "-j$(parallel_jobs)" "$@" --cmake-args -Wno-dev \
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DPCRB_WERROR=${PCRB_WERROR:-OFF}"
+}
+
+build_workspace() {
+  case $root in *[[:space:]]*) fail "catkin cannot build in a folder with spaces in its path: $root" ;; esac
+  [ -w "$root" ] || fail "cannot write to $root"
+  link_packages
+  install_dependencies "${needed_debian_packages[@]}"
+  set_environment
+  drop_foreign_build_space
+  # Without this, an install space made here would be searched for packages where this tree is copied.
+  mkdir -p "$root/install"
+  touch "$root/install/CATKIN_IGNORE"
+  say "build: catkin_make in $root"
+  run_catkin_make || fail "the build failed, see above"
+  say "built; to use it: source $root/devel/setup.bash"
+}
+
+# --- test -------------------------------------------------------------------------------------------
+
+test_workspace() {
+  build_workspace
+  if [ "${1:-}" = --long ]; then export PCRB_LONG_TESTS=1; fi
+  rm -rf "$root/build/test_results"
+  mkdir -p "$root/build/test_results"
+  say "test: unit tests and rostests"
+  run_catkin_make run_tests || fail "the tests could not be built or run, see above"
+  /usr/bin/python3 "$root/.ci/count_tests.py" "$root/build/test_results"
+}
+
+# --- demo -------------------------------------------------------------------------------------------
+
+show_demo() {
+  build_workspace
+  fail "the demo is not here yet"
+}
+
+# --- clean ------------------------------------------------------------------------------------------
+
+clean_workspace() {
+  say "clean: remove build/ devel/ install/ demo/ and the links in src/"
+  if [ -L "$root/src/CMakeLists.txt" ]; then rm "$root/src/CMakeLists.txt"; fi
+  rm -rf "$links" "$root/build" "$root/devel" "$root/install" "$root/demo" "$root/.catkin_workspace"
+}
+
+main() {
+  case "${1:-help} ${2:-}" in
+    "deps ") install_dependencies "${needed_debian_packages[@]}" ;;
+    "deps --ci") install_dependencies "${needed_debian_packages[@]}" "${ci_debian_packages[@]}" ;;
+    "build ") build_workspace ;;
+    "test " | "test --long") test_workspace "${2:-}" ;;
+    "demo ") show_demo ;;
+    "clean ") clean_workspace ;;
+    "help " | "--help " | "-h ") usage ;;
+    *)
+      usage >&2
+      fail "unknown: $*"
+      ;;
+  esac
+}
+
+main "$@"

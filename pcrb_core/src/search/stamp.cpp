@@ -1,0 +1,77 @@
+#include "search/stamp.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "pcrb_core/search/cell_grid.hpp"
+
+namespace pcrb {
+namespace {
+
+/// In squared cells. Coordinates in cells are wrong by less than 1e-6 and distances are at most 13
+/// cells, so that squared distances are wrong by less than 1e-4.
+constexpr double kMargin = 1e-3;
+
+/// Squares of the largest and of the smallest distance along one axis between the interval
+/// [low, high] and the cell [offset, offset + 1].
+struct AxisDistance {
+  double largest;
+  double smallest;
+};
+
+AxisDistance axisDistance(double low, double high, int offset) {
+  const double far = std::max(offset + 1 - low, high - offset);
+  const double near = std::max({0.0, offset - high, low - (offset + 1)});
+  return {far * far, near * near};
+}
+
+/// The stamp of a box in the cell (0, 0, 0): position `corner`, edge length `edge`, in cells.
+Stamp makeStamp(const std::array<double, 3>& corner, double edge) {
+  constexpr double kSquaredDistance = kCellsPerDistance * kCellsPerDistance;
+  std::array<std::array<AxisDistance, Stamp::kRows>, 3> axis{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (int offset = -kReach; offset <= kReach; ++offset) {
+      axis[a][static_cast<std::size_t>(offset + kReach)] =
+          axisDistance(corner[a], corner[a] + edge, offset);
+    }
+  }
+  Stamp stamp;
+  for (std::size_t z = 0; z < Stamp::kRows; ++z) {
+    for (std::size_t y = 0; y < Stamp::kRows; ++y) {
+      for (std::size_t x = 0; x < Stamp::kRows; ++x) {
+        const double largest = axis[0][x].largest + axis[1][y].largest + axis[2][z].largest;
+        const double smallest = axis[0][x].smallest + axis[1][y].smallest + axis[2][z].smallest;
+        if (largest < kSquaredDistance - kMargin) stamp.certain[z][y] |= 1U << x;
+        if (smallest < kSquaredDistance + kMargin) stamp.possible[z][y] |= 1U << x;
+      }
+    }
+  }
+  return stamp;
+}
+
+std::vector<Stamp> makeSubcellStamps() {
+  std::vector<Stamp> stamps;
+  for (int z = 0; z < kSubcells; ++z) {
+    for (int y = 0; y < kSubcells; ++y) {
+      for (int x = 0; x < kSubcells; ++x) {
+        constexpr double kEdge = 1.0 / kSubcells;
+        stamps.push_back(makeStamp({x * kEdge, y * kEdge, z * kEdge}, kEdge));
+      }
+    }
+  }
+  return stamps;
+}
+
+}  // namespace
+
+const Stamp& stampOfSubcell(int x, int y, int z) {
+  static const std::vector<Stamp> stamps = makeSubcellStamps();
+  return stamps[static_cast<std::size_t>((z * kSubcells + y) * kSubcells + x)];
+}
+
+const Stamp& stampOfCell() {
+  static const Stamp stamp = makeStamp({0.0, 0.0, 0.0}, 1.0);
+  return stamp;
+}
+
+}  // namespace pcrb
