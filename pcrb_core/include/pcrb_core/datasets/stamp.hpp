@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pcrb {
+
+/// Time since the epoch in ns. Never a double: at today's dates a double's step is 256 ns.
+using Stamp = std::int64_t;
+
+constexpr Stamp kSecond = 1'000'000'000;
+
+/// The stamp that a text `seconds[.fraction]` means, exactly; nothing for any other text, for
+/// signs, exponents, more than nine decimals other than zeros, and times beyond the year 2262.
+std::optional<Stamp> parseStamp(std::string_view text);
+
+/// `seconds.nanoseconds` with nine decimals, as the clouds of TUM's sequences are named.
+/// @param stamp  >= 0
+std::string formatStamp(Stamp stamp);
+
+/// The stamp nearest to a duration of seconds, e.g. a limit from the command line.
+/// @throws InvalidParameter  if it is not finite, negative or over a hundred years.
+Stamp toStamp(double seconds);
+
+}  // namespace pcrb

@@ -1,0 +1,144 @@
+#include "pcrb_core/datasets/kaist.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "datasets/pose_rows.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb {
+namespace {
+
+constexpr std::size_t kRecordSize = 16;
+
+/// A little-endian float32 on any processor.
+float loadFloat(const char* bytes) {
+  std::uint32_t bits = 0;
+  for (int i = 3; i >= 0; --i) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
+  float value = 0.0F;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+/// The numbers after `key` at the start of a line, or none if the line has another key.
+///
+/// The key is compared up to its colon: `RPY:` begins with R too.
+std::vector<double> keyedNumbers(const LineReader& reader, std::string_view line,
+                                 std::string_view key, std::size_t count) {
+  const std::size_t colon = line.find(':');
+  if (colon == std::string_view::npos || trim(line.substr(0, colon)) != key) return {};
+  return requireNumbers(reader, line.substr(colon + 1), Separator::kBlanks, count,
+                        std::to_string(count) + " numbers after '" + std::string(key) + ":'");
+}
+
+void takeOnce(const LineReader& reader, std::vector<double>&& numbers, std::vector<double>& kept) {
+  if (numbers.empty()) return;
+  if (!kept.empty()) reader.fail("the same key again", "one line of each key");
+  kept = std::move(numbers);
+}
+
+Eigen::Matrix<double, 3, 4> rowsOf(const double* numbers) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers);
+}
+
+}  // namespace
+
+SensorScan parseVelodyneScan(std::string_view bytes, OriginPoints origin, const std::string& name) {
+  if (bytes.size() % kRecordSize != 0) {
+    throw InvalidFile(name, 0, std::to_string(bytes.size()) + " bytes",
+                      "records of 16 bytes (x y z intensity, float32)");
+  }
+  SensorScan scan;
+  scan.points.reserve(bytes.size() / kRecordSize);
+  for (std::size_t at = 0; at != bytes.size(); at += kRecordSize) {
+    const char* const record = bytes.data() + at;
+    scan.add({loadFloat(record), loadFloat(record + 4), loadFloat(record + 8)}, origin);
+  }
+  return scan;
+}
+
+std::vector<Stamp> parseKaistStamps(std::string_view text, const std::string& name) {
+  std::vector<Stamp> stamps;
+  LineReader reader(text, name);
+  std::string_view line;
+  while (reader.nextNotBlank(line)) {
+    const auto stamp = parseInt(trim(line));
+    if (!stamp || *stamp < 0) reader.fail(quote(line), "a stamp in ns");
+    stamps.push_back(*stamp);
+  }
+  return stamps;
+}
+
+Transform parseKaistCalibration(std::string_view text, const std::string& name) {
+  std::vector<double> rotation;
+  std::vector<double> translation;
+  Transform T_vehicle_sensor = Transform::Identity();
+  LineReader reader(text, name);
+  std::string_view line;
+  while (reader.next(line)) {
+    takeOnce(reader, keyedNumbers(reader, line, "T", 3), translation);
+    auto R = keyedNumbers(reader, line, "R", 9);
+    if (R.empty()) continue;
+    Eigen::Matrix<double, 3, 4> rows = Eigen::Matrix<double, 3, 4>::Zero();
+    rows.leftCols<3>() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
+    T_vehicle_sensor = requireLogPose(reader, rows);
+    takeOnce(reader, std::move(R), rotation);
+  }
+  if (rotation.empty() || translation.empty()) {
+    throw InvalidFile(name, 0, rotation.empty() ? "no line 'R:'" : "no line 'T:'",
+                      "lines 'R:' and 'T:'");
+  }
+  T_vehicle_sensor.translation() = Eigen::Map<const Eigen::Vector3d>(translation.data());
+  return T_vehicle_sensor;
+}
+
+Trajectory parseKaistTrajectory(std::string_view text, const std::string& name) {
+  const std::string expected = "a stamp in ns and 12 numbers, separated by commas";
+  std::vector<StampedPose> poses;
+  LineReader reader(text, name);
+  std::string_view line;
+  while (reader.nextNotBlank(line)) {
+    const std::size_t comma = line.find(',');
+    const auto stamp = parseInt(trim(line.substr(0, comma)));
+    if (!stamp || *stamp < 0 || comma == std::string_view::npos) reader.fail(quote(line), expected);
+    const auto numbers =
+        requireNumbers(reader, line.substr(comma + 1), Separator::kComma, 12, expected);
+    poses.push_back({*stamp, requireLogPose(reader, rowsOf(numbers.data()))});
+  }
+  if (poses.empty()) throw InvalidFile(name, 0, "no pose", expected);
+  return Trajectory(std::move(poses));
+}
+
+Stamp closestStamp(const std::vector<Stamp>& stamps, Stamp stamp) {
+  const auto next = std::lower_bound(stamps.begin(), stamps.end(), stamp);
+  if (next == stamps.begin()) return *next;
+  const auto previous = next - 1;
+  if (next == stamps.end()) return *previous;
+  return stamp - *previous <= *next - stamp ? *previous : *next;
+}
+
+PoseAnswer kaistPose(const Trajectory& trajectory, Stamp stamp, const KaistOptions& options) {
+  PoseAnswer answer = options.interpolate ? trajectory.interpolate(stamp, options.max_pose_gap)
+                                          : trajectory.nearest(stamp, options.max_pose_gap);
+  answer.T_world_body.translation() += options.frame_offset;
+  return answer;
+}
+
+DatasetCloud mergeScans(PlacedScan left, PlacedScan right) {
+  DatasetCloud cloud =
+      placeScan(std::move(left.scan), left.T_world_vehicle * left.T_vehicle_sensor);
+  movePoints(right.T_world_vehicle * right.T_vehicle_sensor, right.scan.points);
+  cloud.points.insert(cloud.points.end(), right.scan.points.begin(), right.scan.points.end());
+  cloud.dropped_non_finite += right.scan.counts.non_finite;
+  return cloud;
+}
+
+std::string kaistCloudName(const std::string& sequence, Stamp left_stamp) {
+  return sequence + '_' + std::to_string(left_stamp) + ".pcd";
+}
+
+}  // namespace pcrb

@@ -1,0 +1,118 @@
+#include "pcrb_core/datasets/tum.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "datasets/line_reader.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb {
+namespace {
+
+/// The word at the start of a line, which is taken away.
+std::string_view takeWord(std::string_view& line) {
+  line = trim(line);
+  std::size_t length = 0;
+  while (length < line.size() && !isBlank(line[length])) ++length;
+  const std::string_view word = line.substr(0, length);
+  line.remove_prefix(length);
+  return word;
+}
+
+/// The next line that is neither blank nor a comment.
+bool nextRow(LineReader& reader, std::string_view& line) {
+  while (reader.nextNotBlank(line)) {
+    line = trim(line);
+    if (line.front() != '#') return true;
+  }
+  return false;
+}
+
+Stamp requireStamp(const LineReader& reader, std::string_view word) {
+  const auto stamp = parseStamp(word);
+  if (!stamp) reader.fail(quote(word), "a timestamp 'seconds.fraction'");
+  return *stamp;
+}
+
+bool staysBelow(std::string_view path) {
+  if (path.empty() || path.front() == '/' || path.find('\\') != std::string_view::npos) {
+    return false;
+  }
+  while (!path.empty()) {
+    const std::size_t slash = path.find('/');
+    if (path.substr(0, slash) == "..") return false;
+    path.remove_prefix(slash == std::string_view::npos ? path.size() : slash + 1);
+  }
+  return true;
+}
+
+}  // namespace
+
+Trajectory parseTumTrajectory(std::string_view text, const std::string& name) {
+  const std::string expected = "timestamp tx ty tz qx qy qz qw";
+  std::vector<StampedPose> poses;
+  LineReader reader(text, name);
+  std::string_view line;
+  while (nextRow(reader, line)) {
+    const Stamp stamp = requireStamp(reader, takeWord(line));
+    const auto n = requireNumbers(reader, line, Separator::kBlanks, 7, expected);
+    const Eigen::Quaterniond rotation(n[6], n[3], n[4], n[5]);
+    // Four decimals leave a norm within 2e-4 of 1; anything far from it is no rotation.
+    if (std::abs(rotation.norm() - 1.0) > 0.01) {
+      reader.fail("a quaternion of norm " + formatShortest(rotation.norm()), "1");
+    }
+    poses.push_back({stamp, makeTransform({n[0], n[1], n[2]}, rotation)});
+  }
+  if (poses.empty()) throw InvalidFile(name, 0, "no pose", "rows '" + expected + "'");
+  return Trajectory(std::move(poses));
+}
+
+std::vector<TumImage> parseTumImageList(std::string_view text, const std::string& name) {
+  std::vector<TumImage> images;
+  LineReader reader(text, name);
+  std::string_view line;
+  while (nextRow(reader, line)) {
+    const Stamp stamp = requireStamp(reader, takeWord(line));
+    const std::string_view path = takeWord(line);
+    if (!trim(line).empty() || !staysBelow(path)) {
+      reader.fail(quote(std::string(path) + std::string(line)),
+                  "a path below the list's folder, without blanks");
+    }
+    images.push_back({stamp, std::string(path)});
+  }
+  if (images.empty()) throw InvalidFile(name, 0, "no image", "rows 'timestamp path'");
+  return images;
+}
+
+RateLimiter::RateLimiter(double max_rate) {
+  if (!(max_rate >= 0.0) || !std::isfinite(max_rate)) {
+    throw InvalidParameter("found a maximal rate of " + formatShortest(max_rate) +
+                           " Hz, expected a positive one, or 0 for all");
+  }
+  if (max_rate > 0.0) period_ = toStamp(1.0 / max_rate);
+}
+
+bool RateLimiter::keep(Stamp stamp) {
+  if (period_ == 0) return true;
+  if (!first_ && stamp < due_ - period_ / 10) return false;
+  // After a gap the schedule starts anew: it must not catch up by keeping everything.
+  const bool restart = first_ || stamp >= due_ + period_;
+  due_ = (restart ? stamp : due_) + period_;
+  first_ = false;
+  return true;
+}
+
+std::string tumSequenceName(std::string_view log_name) {
+  constexpr std::string_view kPrefix = "rgbd_dataset_freiburg";
+  std::string_view name = log_name;
+  if (name.substr(0, kPrefix.size()) != kPrefix) return std::string(log_name);
+  const std::size_t underscore = name.find('_', kPrefix.size());
+  if (underscore == std::string_view::npos) return std::string(log_name);
+  name.remove_prefix(underscore + 1);
+  return std::string(name.substr(0, name.find('-')));
+}
+
+}  // namespace pcrb
