@@ -21,9 +21,9 @@ constexpr int kOther = -1;
 using Columns = std::vector<int>;
 
 std::string_view trimQuotes(std::string_view text) {
-  text = trim(text);
+  text = trimmed(text);
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
-    text = trim(text.substr(1, text.size() - 2));
+    text = trimmed(text.substr(1, text.size() - 2));
   }
   return text;
 }
@@ -48,7 +48,7 @@ Columns parseHeader(const LineReader& reader, std::string_view header) {
     if (more) line.remove_prefix(comma + 1);
   }
   if (found != std::array<int, 3>{1, 1, 1}) {
-    reader.fail(quote(header), "a header with one column each of x, y and z");
+    reader.fail(inQuotes(header), "a header with one column each of x, y and z");
   }
   return columns;
 }
@@ -56,7 +56,7 @@ Columns parseHeader(const LineReader& reader, std::string_view header) {
 /// Reads a number that may have blanks and quotes around it; `at` ends at the comma or the end.
 bool scanCell(const char*& at, const char* end, double& value) {
   const auto skip = [&at, end] {
-    while (at != end && (isBlank(*at) || *at == '"')) ++at;
+    while (at != end && (*at == ' ' || *at == '\t' || *at == '"')) ++at;
   };
   skip();
   const char* const after = scanDouble(at, end, value);
@@ -85,10 +85,10 @@ Eigen::Vector3d parseRow(const LineReader& reader, std::string_view line, const 
     if (columns[column] == kOther) {
       at = findComma(at, end);
     } else if (!scanCell(at, end, point[columns[column]])) {
-      reader.fail(quote(line), "a number in column " + std::to_string(column + 1));
+      reader.fail(inQuotes(line), "a number in column " + std::to_string(column + 1));
     }
   }
-  if (at != end && !trim({at + 1, static_cast<std::size_t>(end - at - 1)}).empty()) {
+  if (at != end && !trimmed({at + 1, static_cast<std::size_t>(end - at - 1)}).empty()) {
     const auto more = std::count(at, end, ',');
     reader.fail(std::to_string(columns.size() + static_cast<std::size_t>(more)) + " columns",
                 std::to_string(columns.size()));
@@ -130,13 +130,13 @@ std::string ethCloudName(std::uint64_t number) {
 }
 
 SensorScan parseEthScan(std::string_view text, const std::string& name) {
-  LineReader reader(text, name);
+  LineReader reader(withoutByteOrderMark(text), name);
   std::string_view line;
-  if (!reader.nextNotBlank(line)) throw InvalidFile(name, 0, "no line", "a header and points");
+  if (!nextNotBlank(reader, line)) throw InvalidFile(name, 0, "no line", "a header and points");
   const Columns columns = parseHeader(reader, line);
   SensorScan scan;
   while (reader.next(line)) {
-    if (!trim(line).empty()) scan.add(parseRow(reader, line, columns), OriginPoints::kKeep);
+    if (!trimmed(line).empty()) scan.add(parseRow(reader, line, columns), OriginPoints::kKeep);
   }
   if (scan.counts.read == 0) throw InvalidFile(name, 0, "a header only", "points");
   return scan;
@@ -145,13 +145,13 @@ SensorScan parseEthScan(std::string_view text, const std::string& name) {
 std::map<std::uint64_t, Transform> parseLeicaPoses(std::string_view text, const std::string& name) {
   const std::string expected = "18 numbers: poseId, timestamp, T00 ... T33";
   std::map<std::uint64_t, Transform> poses;
-  LineReader reader(text, name);
+  LineReader reader(withoutByteOrderMark(text), name);
   std::string_view line;
   std::vector<double> numbers;
-  if (reader.nextNotBlank(line) && parseNumbers(line, Separator::kComma, numbers)) {
+  if (nextNotBlank(reader, line) && parseNumbers(line, Separator::kComma, numbers)) {
     reader.fail("numbers in the first line", "a header");
   }
-  while (reader.nextNotBlank(line)) {
+  while (nextNotBlank(reader, line)) {
     numbers = requireNumbers(reader, line, Separator::kComma, kPoseColumns, expected);
     const std::uint64_t number = requireScanNumber(reader, numbers[0]);
     if (!poses.emplace(number, requireLogPose4x4(reader, &numbers[2])).second) {

@@ -30,7 +30,7 @@ float loadFloat(const char* bytes) {
 std::vector<double> keyedNumbers(const LineReader& reader, std::string_view line,
                                  std::string_view key, std::size_t count) {
   const std::size_t colon = line.find(':');
-  if (colon == std::string_view::npos || trim(line.substr(0, colon)) != key) return {};
+  if (colon == std::string_view::npos || trimmed(line.substr(0, colon)) != key) return {};
   return requireNumbers(reader, line.substr(colon + 1), Separator::kBlanks, count,
                         std::to_string(count) + " numbers after '" + std::string(key) + ":'");
 }
@@ -65,9 +65,9 @@ std::vector<Stamp> parseKaistStamps(std::string_view text, const std::string& na
   std::vector<Stamp> stamps;
   LineReader reader(text, name);
   std::string_view line;
-  while (reader.nextNotBlank(line)) {
-    const auto stamp = parseInt(trim(line));
-    if (!stamp || *stamp < 0) reader.fail(quote(line), "a stamp in ns");
+  while (nextNotBlank(reader, line)) {
+    const auto stamp = parseInt(trimmed(line));
+    if (!stamp || *stamp < 0) reader.fail(inQuotes(line), "a stamp in ns");
     stamps.push_back(*stamp);
   }
   return stamps;
@@ -101,10 +101,11 @@ Trajectory parseKaistTrajectory(std::string_view text, const std::string& name) 
   std::vector<StampedPose> poses;
   LineReader reader(text, name);
   std::string_view line;
-  while (reader.nextNotBlank(line)) {
+  while (nextNotBlank(reader, line)) {
     const std::size_t comma = line.find(',');
-    const auto stamp = parseInt(trim(line.substr(0, comma)));
-    if (!stamp || *stamp < 0 || comma == std::string_view::npos) reader.fail(quote(line), expected);
+    const auto stamp = parseInt(trimmed(line.substr(0, comma)));
+    if (!stamp || *stamp < 0 || comma == std::string_view::npos)
+      reader.fail(inQuotes(line), expected);
     const auto numbers =
         requireNumbers(reader, line.substr(comma + 1), Separator::kComma, 12, expected);
     poses.push_back({*stamp, requireLogPose(reader, rowsOf(numbers.data()))});

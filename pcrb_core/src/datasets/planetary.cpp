@@ -13,13 +13,12 @@ bool parsePoint(std::string_view line, Eigen::Vector3d& point) {
   const char* const end = at + line.size();
   for (int axis = 0; axis < 3; ++axis) {
     const char* const before = at;
-    while (at != end && isBlank(*at)) ++at;
+    at = skipBlanks(at, end);
     if (axis > 0 && at == before) return false;
     at = scanDouble(at, end, point[axis]);
     if (at == nullptr) return false;
   }
-  while (at != end && isBlank(*at)) ++at;
-  return at == end;
+  return skipBlanks(at, end) == end;
 }
 
 }  // namespace
@@ -32,13 +31,13 @@ SensorScan parsePlanetaryScan(std::string_view text, const std::string& name) {
   while (reader.next(line)) {
     if (parsePoint(line, point)) {
       scan.add(point, OriginPoints::kKeep);
-    } else if (!trim(line).empty()) {
+    } else if (!trimmed(line).empty()) {
       ++scan.counts.read;
       ++scan.counts.malformed;
     }
   }
   if (scan.points.empty()) {
-    throw InvalidFile(name, 0, "no line with a point among " + std::to_string(reader.number()),
+    throw InvalidFile(name, 0, "no line with a point among " + std::to_string(reader.lineNumber()),
                       "lines 'x y z'");
   }
   return scan;
@@ -49,7 +48,7 @@ Transform parsePlanetaryPose(std::string_view text, const std::string& name) {
   LineReader reader(text, name);
   std::string_view line;
   std::vector<double> numbers;
-  while (reader.nextNotBlank(line)) {
+  while (nextNotBlank(reader, line)) {
     if (numbers.size() == 16) reader.fail("a fifth row", expected);
     const auto row = requireNumbers(reader, line, Separator::kBlanks, 4, expected);
     numbers.insert(numbers.end(), row.begin(), row.end());

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "datasets/line_reader.hpp"
+#include "datasets/number_rows.hpp"
 #include "pcrb_core/transform.hpp"
 
 namespace pcrb {

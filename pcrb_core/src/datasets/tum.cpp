@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "datasets/line_reader.hpp"
+#include "datasets/number_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 
@@ -14,18 +14,16 @@ namespace {
 
 /// The word at the start of a line, which is taken away.
 std::string_view takeWord(std::string_view& line) {
-  line = trim(line);
-  std::size_t length = 0;
-  while (length < line.size() && !isBlank(line[length])) ++length;
-  const std::string_view word = line.substr(0, length);
-  line.remove_prefix(length);
+  line = trimmed(line);
+  const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+  line.remove_prefix(word.size());
   return word;
 }
 
 /// The next line that is neither blank nor a comment.
 bool nextRow(LineReader& reader, std::string_view& line) {
-  while (reader.nextNotBlank(line)) {
-    line = trim(line);
+  while (nextNotBlank(reader, line)) {
+    line = trimmed(line);
     if (line.front() != '#') return true;
   }
   return false;
@@ -33,7 +31,7 @@ bool nextRow(LineReader& reader, std::string_view& line) {
 
 Stamp requireStamp(const LineReader& reader, std::string_view word) {
   const auto stamp = parseStamp(word);
-  if (!stamp) reader.fail(quote(word), "a timestamp 'seconds.fraction'");
+  if (!stamp) reader.fail(inQuotes(word), "a timestamp 'seconds.fraction'");
   return *stamp;
 }
 
@@ -77,8 +75,8 @@ std::vector<TumImage> parseTumImageList(std::string_view text, const std::string
   while (nextRow(reader, line)) {
     const Stamp stamp = requireStamp(reader, takeWord(line));
     const std::string_view path = takeWord(line);
-    if (!trim(line).empty() || !staysBelow(path)) {
-      reader.fail(quote(std::string(path) + std::string(line)),
+    if (!trimmed(line).empty() || !staysBelow(path)) {
+      reader.fail(inQuotes(std::string(path) + std::string(line)),
                   "a path below the list's folder, without blanks");
     }
     images.push_back({stamp, std::string(path)});
