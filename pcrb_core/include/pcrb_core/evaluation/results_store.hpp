@@ -19,16 +19,21 @@ class StoreError : public Error {
 
 /// The results of one run: `<run>/results.sqlite` (WAL, synchronous FULL, `user_version` 1).
 ///
-/// Every add() is committed and on disk when it returns. Killed at any moment, the store keeps all
-/// that was added. Not thread-safe; one writer per run folder (a second one is refused).
+/// Every add() is committed and on disk when it returns (one fsync). Killed at any moment, the
+/// store keeps all that was added; a failed add() adds nothing and may be tried again. Not
+/// thread-safe. One writer per run folder, held off by a kernel lock on `results.lock`, which a
+/// kill frees; any number of readers beside it.
 class ResultsStore {
  public:
   enum class Access { kReadOnly, kReadWrite };
 
-  /// Opens the store of a run folder; with kReadWrite folder and store are made where missing.
+  /// Opens the store of a run folder; with kReadWrite folder and store are made where missing. Its
+  /// tables and integrity are checked. A reader needs no write permission, as long as a writer is
+  /// active or ended well.
   ///
-  /// @throws StoreError  naming the file: not a database, another `user_version`, held by another
-  ///                     writer, missing (read-only), permissions, full disk.
+  /// @throws StoreError  naming the file: not a database, another `user_version` or other tables,
+  ///                     damaged, held by another writer (which is named), missing (read-only),
+  ///                     permissions, full disk.
   ResultsStore(const std::string& run_folder, Access access);
   ~ResultsStore();
   ResultsStore(ResultsStore&&) noexcept;
@@ -48,8 +53,12 @@ class ResultsStore {
   void beginSession(double started, const std::string& host, int pid);
   void endSession(double ended);
 
-  /// Commits one result.
-  /// @throws StoreError  if the problem has a result already, or on any failure to write.
+  /// Commits one result. The covariance is stored as text: 36 numbers in their shortest exact form,
+  /// separated by spaces; its entries need not be finite.
+  ///
+  /// @throws StoreError  if the problem has a result already; if a number is negative, not finite
+  /// or
+  ///                     out of its range, or the pose is incomplete; on any failure to write.
   void add(const Result& result);
 
   /// Keys of all stored results.
@@ -58,8 +67,8 @@ class ResultsStore {
   /// All results, ordered by data set, sequence, kind, problem id.
   std::vector<Result> results() const;
 
-  /// Writes `results.csv` (all columns of the result table, NULL as empty field) beside the store,
-  /// to a temporary name, then renames.
+  /// Writes `results.csv` (all columns of the result table, in the order of results(), NULL as
+  /// empty field, quoted as in RFC 4180) beside the store, to a temporary name, then renames.
   void exportCsv() const;
 
   std::string path() const;  ///< of the database file
