@@ -42,4 +42,11 @@ Eigen::Vector3d centroid(const PointCloud& cloud) {
   return sum / static_cast<double>(cloud.points.size());
 }
 
+Eigen::Vector3d centroid(const DatasetCloud& cloud) {
+  if (cloud.points.empty()) throw InvalidProblem("cloud has no points");
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : cloud.points) sum += point - cloud.points.front();
+  return cloud.points.front() + sum / static_cast<double>(cloud.points.size());
+}
+
 }  // namespace pcrb

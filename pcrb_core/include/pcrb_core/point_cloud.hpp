@@ -52,4 +52,10 @@ PointCloud makeLocal(const DatasetCloud& cloud, const Eigen::Vector3d& local_ori
 /// @throws InvalidProblem  if the cloud is empty.
 Eigen::Vector3d centroid(const PointCloud& cloud);
 
+/// Centroid of the points in the data set's frame, summed relative to the first point, in a fixed
+/// order.
+///
+/// @throws InvalidProblem  if the cloud is empty.
+Eigen::Vector3d centroid(const DatasetCloud& cloud);
+
 }  // namespace pcrb

@@ -12,8 +12,11 @@ namespace pcrb {
 Transform makePerturbation(const Eigen::Vector3d& center, const Eigen::Vector3d& translation,
                            const Eigen::Matrix3d& rotation);
 
+/// How far a perturbation of a data set may move the source's centroid, m: its bound × 1.1 + 0.2.
+double maxCentroidMotion(const PerturbationBounds& bounds);
+
 /// Checks that a perturbation moves the source's centroid no farther than its data set's bound
-/// allows (× 1.1 + 0.2 m): else the clouds are in another frame than the problem file's.
+/// allows (maxCentroidMotion): else the clouds are in another frame than the problem file's.
 ///
 /// @param source_centroid  m, in the data set's frame.
 /// @throws InvalidProblem  saying how far the centroid moves, the bound, and the likely cause.
