@@ -1,6 +1,8 @@
 #include "pcrb_core/io/number.hpp"
 
+#include <array>
 #include <charconv>
+#include <cstring>
 #include <limits>
 
 namespace pcrb {
@@ -15,9 +17,8 @@ std::optional<Integer> parseWhole(std::string_view text) noexcept {
   return value;
 }
 
-}  // namespace
-
-const char* scanDouble(const char* begin, const char* end, double& value) noexcept {
+/// Any notation, correctly rounded.
+const char* scanAnyDouble(const char* begin, const char* end, double& value) noexcept {
   // from_chars knows no plus sign; "+-1" must not become a number here.
   if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
   double parsed = 0.0;
@@ -25,6 +26,132 @@ const char* scanDouble(const char* begin, const char* end, double& value) noexce
   if (result.ec != std::errc()) return nullptr;
   value = parsed;
   return result.ptr;
+}
+
+// What follows reads plain decimals, nearly all numbers of point clouds, in 2/3 of the time of
+// std::from_chars (doc/performance.md): eight digits at a time, then w / 10^k by a multiplication
+// that knows its error. Whatever is not plain, or too close to a tie to be sure, is left to
+// from_chars, so that the result is the same.
+
+__extension__ typedef unsigned __int128 Uint128;
+
+constexpr int kMaxDigits = 19;  // of a number that fits in 64 bits
+constexpr bool kIsLittleEndian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+constexpr std::uint64_t kZeros = 0x3030303030303030;  // eight '0'
+
+/// Bytes from a number's start that the fast path may read: sign, up to 7 digits, point, two blocks
+/// of 8 digits, and a third block that it only looks at.
+constexpr std::ptrdiff_t kLongestRead = 1 + 7 + 1 + 16 + 8;
+
+constexpr std::array<std::uint64_t, kMaxDigits + 1> makePowersOfTen() {
+  std::array<std::uint64_t, kMaxDigits + 1> powers{1};
+  for (std::size_t k = 1; k < powers.size(); ++k) powers[k] = 10 * powers[k - 1];
+  return powers;
+}
+constexpr auto kPowersOfTen = makePowersOfTen();
+
+/// 1 / 10^k = (mantissa + e) * 2^(shift - 126) with 0 <= e < 1.
+struct Reciprocal {
+  std::uint64_t mantissa = 0;  // between 2^62 and 2^63
+  int shift = 0;
+};
+
+constexpr std::array<Reciprocal, kMaxDigits + 1> makeReciprocals() {
+  std::array<Reciprocal, kMaxDigits + 1> reciprocals{};
+  for (std::size_t k = 0; k < reciprocals.size(); ++k) {
+    std::uint64_t divisor = kPowersOfTen[k];
+    for (; divisor >> 63 == 0; divisor <<= 1) ++reciprocals[k].shift;
+    reciprocals[k].mantissa = static_cast<std::uint64_t>((Uint128{1} << 126) / divisor);
+  }
+  return reciprocals;
+}
+constexpr auto kReciprocals = makeReciprocals();
+
+/// Eight bytes with the digits as 0 … 9, the first in the lowest byte, and how many of them, from
+/// the first on, are digits.
+struct Block {
+  std::uint64_t bytes;
+  int digits;
+};
+
+Block loadBlock(const char* text) noexcept {
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, text, sizeof(bytes));
+  bytes ^= kZeros;
+  // A byte that is no digit sets its top bit; what a carry does to later bytes does not matter.
+  const std::uint64_t others = ((bytes + 0x7676767676767676) | bytes) & 0x8080808080808080;
+  return {bytes, others == 0 ? 8 : __builtin_ctzll(others) / 8};
+}
+
+/// The number that eight digits are.
+std::uint64_t valueOfEight(std::uint64_t bytes) noexcept {
+  bytes = bytes * 10 + (bytes >> 8);  // pairs
+  const std::uint64_t mask = 0x000000ff000000ff;
+  return ((bytes & mask) * 0x000f424000000064 + ((bytes >> 16) & mask) * 0x0000271000000001) >> 32;
+}
+
+/// The number that the block's 1 to 8 digits are: zeros are moved in before them.
+std::uint64_t valueOf(const Block& block) noexcept {
+  return valueOfEight(block.bytes << (64 - 8 * block.digits));
+}
+
+/// The double nearest to w / 10^k if rounding is certain.
+bool divideByPowerOfTen(std::uint64_t w, int k, double& value) noexcept {
+  const int zeros = __builtin_clzll(w);
+  const Reciprocal& reciprocal = kReciprocals[static_cast<std::size_t>(k)];
+  // The true quotient is between these two, times a power of two: cutting off loses less than 2.
+  const Uint128 product = static_cast<Uint128>(w << zeros) * reciprocal.mantissa;
+  const auto low = static_cast<std::int64_t>(product >> 64);
+  value = static_cast<double>(low);
+  if (value != static_cast<double>(low + 2)) return false;
+  const auto exponent = static_cast<std::uint64_t>(1023 - 62 + reciprocal.shift - zeros);
+  const std::uint64_t bits = exponent << 52;
+  double power_of_two = 0.0;
+  std::memcpy(&power_of_two, &bits, sizeof(bits));
+  value *= power_of_two;
+  return true;
+}
+
+/// A plain decimal of at most 19 digits, 7 of them before the point; else nullptr.
+const char* scanPlainDouble(const char* text, double& value) noexcept {
+  const bool is_negative = *text == '-';
+  text += is_negative;
+  Block block = loadBlock(text);
+  if (block.digits == 0 || block.digits == 8) return nullptr;
+  std::uint64_t w = valueOf(block);
+  int digits = block.digits;
+  text += block.digits;
+  int decimals = 0;
+  if (*text == '.') {
+    block = loadBlock(++text);
+    for (; block.digits == 8; block = loadBlock(text)) {
+      if (decimals == 16) return nullptr;
+      w = w * kPowersOfTen[8] + valueOfEight(block.bytes);
+      decimals += 8;
+      text += 8;
+    }
+    if (block.digits > 0) {
+      w = w * kPowersOfTen[static_cast<std::size_t>(block.digits)] + valueOf(block);
+      decimals += block.digits;
+      text += block.digits;
+    }
+    digits += decimals;
+  }
+  if (digits > kMaxDigits || (*text | 0x20) == 'e') return nullptr;
+  double magnitude = 0.0;
+  if (w != 0 && !divideByPowerOfTen(w, decimals, magnitude)) return nullptr;
+  value = is_negative ? -magnitude : magnitude;
+  return text;
+}
+
+}  // namespace
+
+const char* scanDouble(const char* begin, const char* end, double& value) noexcept {
+  if (kIsLittleEndian && end - begin > kLongestRead) {
+    const char* const behind = scanPlainDouble(begin, value);
+    if (behind != nullptr) return behind;
+  }
+  return scanAnyDouble(begin, end, value);
 }
 
 std::optional<double> parseDouble(std::string_view text) noexcept {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <charconv>
 #include <clocale>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -57,6 +59,83 @@ TEST(Number, ShortestTextReadsBackToTheSameBits) {
   }
   EXPECT_EQ(formatShortest(0.1), "0.1");
   EXPECT_EQ(formatShortest(8045123.123456789), "8045123.123456789");
+}
+
+/// Scans a number that stands in a longer text, where the fast path is open.
+void expectScansLikeFromChars(const std::string& number) {
+  const std::string text = number + " " + std::string(40, '7');
+  double expected = 0.0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), expected);
+  ASSERT_EQ(result.ec, std::errc()) << number;
+  double value = 0.0;
+  const char* const behind = scanDouble(text.data(), text.data() + text.size(), value);
+  ASSERT_EQ(behind, result.ptr) << number;
+  ASSERT_EQ(std::memcmp(&value, &expected, sizeof(value)), 0) << number;
+}
+
+TEST(Number, ScanningALongTextGivesTheNearestDouble) {
+  for (const char* number : {"0",
+                             "-0",
+                             "-0.0",
+                             "5.",
+                             "-.5",
+                             ".25",
+                             "1e5",
+                             "1.5E-7",
+                             "0.1234567",
+                             "0.12345678",
+                             "0.123456789012345",
+                             "0.1234567890123456",
+                             "0.12345678901234567",
+                             "1.234567890123456789",
+                             "0.0000000000000000001",
+                             "0.00000000000000000001",
+                             "1234567",
+                             "12345678",
+                             "-7654321.5",
+                             "8045123.123456789",
+                             "9007199254740993",
+                             "9999999.999999999999",
+                             "1234567.8901234567890",
+                             "1.0x",
+                             "0x10",
+                             "1.2.3",
+                             "nan",
+                             "-inf"}) {
+    expectScansLikeFromChars(number);
+  }
+}
+
+TEST(Number, ScanningRandomDecimalsGivesTheNearestDouble) {
+  std::mt19937_64 bits(11);
+  for (int i = 0; i < 200000; ++i) {
+    const double magnitude = std::ldexp(static_cast<double>(bits() >> 11), -53);
+    const double value = (i % 2 == 0 ? 1.0 : -1.0) * magnitude * std::pow(10.0, bits() % 8);
+    expectScansLikeFromChars(formatFixed(value, static_cast<int>(bits() % 22)));
+    expectScansLikeFromChars(formatShortest(value));
+  }
+}
+
+TEST(Number, ScanningDecimalsBesideATieGivesTheNearestDouble) {
+  std::mt19937_64 bits(13);
+  for (int i = 0; i < 200000; ++i) {
+    const double below = 1.0 + std::ldexp(static_cast<double>(bits() >> 12), -48);
+    const double above = std::nextafter(below, 100.0);
+    // long double has 64 bits: the midpoint is exact, its decimals are not.
+    const long double tie = (static_cast<long double>(below) + static_cast<long double>(above)) / 2;
+    char decimals[64];
+    std::snprintf(decimals, sizeof(decimals), "%.*Lf", 14 + static_cast<int>(bits() % 4), tie);
+    expectScansLikeFromChars(decimals);
+  }
+}
+
+TEST(Number, ScanningStopsBehindTheNumber) {
+  const std::string text = "-1.5abc";
+  double value = 7.0;
+  EXPECT_EQ(scanDouble(text.data(), text.data() + text.size(), value), text.data() + 4);
+  EXPECT_EQ(value, -1.5);
+  EXPECT_EQ(scanDouble(text.data() + 4, text.data() + text.size(), value), nullptr);
+  EXPECT_EQ(value, -1.5);
 }
 
 TEST(Number, FixedTextHasItsDecimals) {

@@ -1,0 +1,171 @@
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include "lzf.hpp"
+#include "pcd_data.hpp"
+
+namespace pcrb {
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "PCD data is little-endian");
+
+/// Old versions of PCL filled files up with zeros, by less than a page.
+constexpr std::size_t kLargestFill = 4096;
+
+template <typename Number>
+double load(const char* bytes) {
+  Number value;
+  std::memcpy(&value, bytes, sizeof(value));
+  return static_cast<double>(value);
+}
+
+double loadFloat(const PcdField& field, const char* bytes) {
+  return field.size == 4 ? load<float>(bytes) : load<double>(bytes);
+}
+
+double loadSigned(const PcdField& field, const char* bytes) {
+  switch (field.size) {
+    case 1:
+      return load<std::int8_t>(bytes);
+    case 2:
+      return load<std::int16_t>(bytes);
+    case 4:
+      return load<std::int32_t>(bytes);
+    default:
+      return load<std::int64_t>(bytes);
+  }
+}
+
+double loadUnsigned(const PcdField& field, const char* bytes) {
+  switch (field.size) {
+    case 1:
+      return load<std::uint8_t>(bytes);
+    case 2:
+      return load<std::uint16_t>(bytes);
+    case 4:
+      return load<std::uint32_t>(bytes);
+    default:
+      return load<std::uint64_t>(bytes);
+  }
+}
+
+/// Where the values of one field lie: in rows (binary) or together (binary_compressed).
+struct Column {
+  PcdField field;
+  const char* first = nullptr;
+  std::size_t stride = 0;
+
+  double at(std::size_t i) const {
+    const char* const bytes = first + i * stride;
+    return field.type == 'F'   ? loadFloat(field, bytes)
+           : field.type == 'I' ? loadSigned(field, bytes)
+                               : loadUnsigned(field, bytes);
+  }
+};
+
+void collect(const PcdHeader& header, const std::vector<Column>& columns, DatasetCloud& cloud) {
+  const Column& x = columns[header.find("x")];
+  const Column& y = columns[header.find("y")];
+  const Column& z = columns[header.find("z")];
+  const std::size_t intensity = header.find("intensity");
+  cloud.points.reserve(header.points);
+  if (intensity < columns.size()) cloud.intensity.reserve(header.points);
+  for (std::size_t i = 0; i < header.points; ++i) {
+    const Eigen::Vector3d point(x.at(i), y.at(i), z.at(i));
+    if (!point.allFinite()) {
+      ++cloud.dropped_non_finite;
+      continue;
+    }
+    cloud.points.push_back(point);
+    if (intensity < columns.size()) {
+      cloud.intensity.push_back(static_cast<float>(columns[intensity].at(i)));
+    }
+  }
+}
+
+std::size_t rowBytes(const PcdHeader& header, bool with_padding) {
+  std::size_t bytes = 0;
+  for (const PcdField& field : header.fields) {
+    if (with_padding || !field.isPadding()) bytes += field.bytes();
+  }
+  return bytes;
+}
+
+/// Whether `size` bytes are `points` rows of `row_bytes`; the product may not fit.
+bool isExactly(std::size_t size, std::size_t points, std::size_t row_bytes) {
+  return size % row_bytes == 0 && size / row_bytes == points;
+}
+
+std::string describe(const PcdHeader& header, std::size_t row_bytes) {
+  return std::to_string(header.points) + " points of " + std::to_string(row_bytes) + " bytes";
+}
+
+bool isFill(std::string_view rest) {
+  return rest.size() < kLargestFill && rest.find_first_not_of('\0') == std::string_view::npos;
+}
+
+/// The uncompressed values, field after field; PCL leaves padding out, others may not.
+void collectFields(const PcdHeader& header, const LineReader& lines, std::string_view values,
+                   DatasetCloud& cloud) {
+  const bool with_padding = !isExactly(values.size(), header.points, rowBytes(header, false));
+  if (with_padding && !isExactly(values.size(), header.points, rowBytes(header, true))) {
+    lines.fail(std::to_string(values.size()) + " bytes of uncompressed data",
+               describe(header, rowBytes(header, false)));
+  }
+  std::vector<Column> columns;
+  const char* first = values.data();
+  for (const PcdField& field : header.fields) {
+    columns.push_back({field, first, field.bytes()});
+    if (with_padding || !field.isPadding()) first += header.points * field.bytes();
+  }
+  collect(header, columns, cloud);
+}
+
+}  // namespace
+
+void readPcdBinary(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud) {
+  const std::string_view data = lines.rest();
+  const std::size_t row_bytes = rowBytes(header, true);
+  const std::size_t available = data.size() / row_bytes;
+  if (available < header.points || !isFill(data.substr(header.points * row_bytes))) {
+    lines.fail(std::to_string(data.size()) + " bytes of data", describe(header, row_bytes));
+  }
+  std::vector<Column> columns;
+  const char* first = data.data();
+  for (const PcdField& field : header.fields) {
+    columns.push_back({field, first, row_bytes});
+    first += field.bytes();
+  }
+  collect(header, columns, cloud);
+}
+
+void readPcdCompressed(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud) {
+  std::string_view data = lines.rest();
+  std::uint32_t sizes[2];
+  if (data.size() < sizeof(sizes)) {
+    lines.fail(std::to_string(data.size()) + " bytes of data", "8 bytes with two sizes");
+  }
+  std::memcpy(sizes, data.data(), sizeof(sizes));
+  data.remove_prefix(sizeof(sizes));
+  const std::size_t compressed = sizes[0];
+  const std::size_t uncompressed = sizes[1];
+  if (data.size() < compressed || !isFill(data.substr(compressed))) {
+    lines.fail(std::to_string(data.size()) + " bytes of compressed data",
+               std::to_string(compressed) + " bytes");
+  }
+  if (uncompressed > compressed * kLzfLargestRatio) {
+    lines.fail(std::to_string(uncompressed) + " bytes claimed to be in " +
+                   std::to_string(compressed) + " bytes of LZF data",
+               "at most " + std::to_string(kLzfLargestRatio) + " times as many");
+  }
+  const std::unique_ptr<char[]> values(new char[uncompressed]);
+  if (!decodeLzf(data.substr(0, compressed), values.get(), uncompressed)) {
+    lines.fail("broken LZF data", std::to_string(uncompressed) + " bytes after decoding");
+  }
+  collectFields(header, lines, {values.get(), uncompressed}, cloud);
+}
+
+}  // namespace pcrb
