@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "double_double.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb {
@@ -43,7 +44,13 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& matrix) {
 
 Transform inLocalFrame(const Transform& T, const Eigen::Vector3d& local_origin) {
   Transform local = T;
-  local.translation() += (T.linear() - Eigen::Matrix3d::Identity()) * local_origin;
+  for (int row = 0; row < 3; ++row) {
+    DoubleDouble moved;  // row of T · o − o
+    moved.add(T.translation()[row]);
+    for (int i = 0; i < 3; ++i) moved.addProduct(T.linear()(row, i), local_origin[i]);
+    moved.add(-local_origin[row]);
+    local.translation()[row] = moved.value();
+  }
   return local;
 }
 

@@ -25,7 +25,8 @@ Transform makeTransform(const Eigen::Vector3d& translation, const Eigen::Quatern
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& matrix);
 
 /// Expresses a transform of data set coordinates in coordinates relative to `local_origin`:
-/// Trans(−o) · T · Trans(o), computed without cancellation of the large terms.
+/// Trans(−o) · T · Trans(o). The translation is the exact one of T's stored entries, rounded once,
+/// however large terms cancel; it is what T does to the origin, T · o − o.
 Transform inLocalFrame(const Transform& T, const Eigen::Vector3d& local_origin);
 
 /// Angle of a rotation in rad, in [0, π]; accurate near 0 and near π.

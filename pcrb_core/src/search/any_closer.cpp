@@ -1,13 +1,6 @@
 #include "search/any_closer.hpp"
 
-// The instruction set does not change a result (no fused multiply-add), only the time that it
-// takes.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define PCRB_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define PCRB_CLONES
-#endif
+#include "target_clones.hpp"
 
 namespace pcrb {
 

@@ -19,6 +19,24 @@ TEST(Transform, LocalFrameConjugatesWithTheOrigin) {
   EXPECT_LT((inLocalFrame(T, origin) * p_local - expected).norm(), 1e-12);
 }
 
+TEST(Transform, LocalFrameLosesNothingWhereLargeTermsCancel) {
+  // Exact in binary: the true motion of the origin is (0.25, 2^-30, 0).
+  Transform T = Transform::Identity();
+  T.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const Eigen::Vector3d origin(0x1p23 + 0x1p-29, 0x1p33, 1e7);
+  T.translation() = origin - T.linear() * origin;
+  T.translation() += Eigen::Vector3d(0.25, 0, 0);
+  const Eigen::Matrix<long double, 3, 1> o = origin.cast<long double>();
+  const Eigen::Matrix<long double, 3, 1> expected =
+      T.linear().cast<long double>() * o + T.translation().cast<long double>() - o;
+  EXPECT_EQ(inLocalFrame(T, origin).translation(), expected.cast<double>());
+  Transform turned = someTransform();
+  turned.translation() -= (turned.linear() - Eigen::Matrix3d::Identity()) * origin;
+  const Eigen::Matrix<long double, 3, 1> motion =
+      turned.linear().cast<long double>() * o + turned.translation().cast<long double>() - o;
+  EXPECT_LT((inLocalFrame(turned, origin).translation() - motion.cast<double>()).norm(), 1e-8);
+}
+
 TEST(Transform, RejectsMirrorsShearsAndNonFiniteEntries) {
   Eigen::Matrix<double, 3, 4> rows = someTransform().matrix().topRows<3>();
   EXPECT_NO_THROW(requireRigid(rows));

@@ -8,8 +8,8 @@
 #include <limits>
 #include <sstream>
 
-#include "evaluation/expect_error.hpp"
 #include "evaluation/some_results.hpp"
+#include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb {
@@ -112,8 +112,8 @@ TEST_F(ResultsStoreTest, RefusesASecondResultOfAProblemAndKeepsTheFirst) {
   Result result = minimalResult("1");
   store.add(result);
   result.error = 99.0;
-  expectError<StoreError>([&] { store.add(result); },
-                          {database(), "eth/plain local 1", "exactly one"});
+  expectError<StoreError>([&] { store.add(result); }, database(), "eth/plain local 1",
+                          "exactly one");
   store.add(minimalResult("2"));
   ASSERT_EQ(store.results().size(), 2u);
   EXPECT_EQ(store.results()[0].error, minimalResult("1").error);
@@ -123,19 +123,19 @@ TEST_F(ResultsStoreTest, RefusesNumbersThatAreNotFiniteOrOutOfRange) {
   ResultsStore store = writer();
   Result result = minimalResult("1");
   result.error = std::nan("");
-  expectError<StoreError>([&] { store.add(result); }, {"eth/plain local 1", "error = nan"});
+  expectError<StoreError>([&] { store.add(result); }, "eth/plain local 1", "error = nan");
   result = minimalResult("1");
   result.runtime = -1.0;
-  expectError<StoreError>([&] { store.add(result); }, {"runtime_s = -1", "expected 0 to"});
+  expectError<StoreError>([&] { store.add(result); }, "runtime_s = -1", "expected 0 to");
   result = minimalResult("1");
   result.overlap = 1.5;
-  expectError<StoreError>([&] { store.add(result); }, {"overlap = 1.5"});
+  expectError<StoreError>([&] { store.add(result); }, "overlap = 1.5");
   result = fullResult("1");
   result.orientation.reset();
-  expectError<StoreError>([&] { store.add(result); }, {"half a pose"});
+  expectError<StoreError>([&] { store.add(result); }, "half a pose");
   result = fullResult("1");
   result.position->x() = std::numeric_limits<double>::infinity();
-  expectError<StoreError>([&] { store.add(result); }, {"not finite"});
+  expectError<StoreError>([&] { store.add(result); }, "not finite");
   EXPECT_TRUE(store.finished().empty());
 }
 
@@ -155,7 +155,7 @@ TEST_F(ResultsStoreTest, HasARunTableThatIsWrittenOnceAndUpdatedByKey) {
     EXPECT_TRUE(store.runInfo().empty());
     store.setRunInfo(info);
     EXPECT_EQ(store.runInfo(), info);
-    expectError<StoreError>([&] { store.setRunInfo({{"seed", "2"}}); }, {"expected a new store"});
+    expectError<StoreError>([&] { store.setRunInfo({{"seed", "2"}}); }, "expected a new store");
     store.updateRunInfo("client", "node");
     store.updateRunInfo("seed", "3");
   }
@@ -167,7 +167,7 @@ TEST_F(ResultsStoreTest, HasARunTableThatIsWrittenOnceAndUpdatedByKey) {
 TEST_F(ResultsStoreTest, NotesSessionsAndLeavesTheEndOfAKilledOneUnknown) {
   {
     ResultsStore store = writer();
-    expectError<StoreError>([&] { store.endSession(1.0); }, {"no session"});
+    expectError<StoreError>([&] { store.endSession(1.0); }, "no session");
     store.beginSession(10.0, "host", 7);
   }  // as if killed
   {
@@ -196,8 +196,8 @@ TEST_F(ResultsStoreTest, IsTheDatabaseOfTheDesign) {
 
 TEST_F(ResultsStoreTest, RefusesASecondWriterNamingTheFirst) {
   const ResultsStore first = writer();
-  expectError<StoreError>([&] { writer(); },
-                          {run(), "another writer", "process " + std::to_string(getpid())});
+  expectError<StoreError>([&] { writer(); }, run(), "another writer",
+                          "process " + std::to_string(getpid()));
 }
 
 TEST_F(ResultsStoreTest, TakesTheNextWriterWhenTheFirstIsGone) {
@@ -217,20 +217,20 @@ TEST_F(ResultsStoreTest, IsReadWhileAWriterIsActive) {
 TEST_F(ResultsStoreTest, IsNotWrittenWhenOpenedReadOnly) {
   { writer(); }
   ResultsStore store = reader();
-  expectError<StoreError>([&] { store.add(minimalResult("1")); }, {database(), "read only"});
-  expectError<StoreError>([&] { store.updateRunInfo("a", "b"); }, {database(), "readonly"});
+  expectError<StoreError>([&] { store.add(minimalResult("1")); }, database(), "read only");
+  expectError<StoreError>([&] { store.updateRunInfo("a", "b"); }, database(), "readonly");
 }
 
 TEST_F(ResultsStoreTest, MissingIsAnErrorForAReader) {
-  expectError<StoreError>([&] { reader(); }, {database(), "found no file"});
+  expectError<StoreError>([&] { reader(); }, database(), "found no file");
   EXPECT_FALSE(std::filesystem::exists(run()));
 }
 
 TEST_F(ResultsStoreTest, RefusesAFileThatIsNoDatabaseAndLeavesItAlone) {
   const std::string text(5000, 'x');
   makeDatabase(text);
-  expectError<StoreError>([&] { writer(); }, {database(), "not a database"});
-  expectError<StoreError>([&] { reader(); }, {database(), "not a database"});
+  expectError<StoreError>([&] { writer(); }, database(), "not a database");
+  expectError<StoreError>([&] { reader(); }, database(), "not a database");
   EXPECT_EQ(readFile(database()), text);
 }
 
@@ -238,22 +238,22 @@ TEST_F(ResultsStoreTest, RefusesAnotherProgramsDatabaseAndLeavesItAlone) {
   makeDatabase("");
   runSql(database(), "CREATE TABLE mine (a)");
   const std::string before = readFile(database());
-  expectError<StoreError>([&] { writer(); }, {database(), "user_version 0", "expected 1"});
+  expectError<StoreError>([&] { writer(); }, database(), "user_version 0", "expected 1");
   EXPECT_EQ(readFile(database()), before);
 }
 
 TEST_F(ResultsStoreTest, RefusesAnotherVersionsStore) {
   { writer(); }
   runSql(database(), "PRAGMA user_version = 2");
-  expectError<StoreError>([&] { writer(); }, {database(), "user_version 2", "expected 1"});
+  expectError<StoreError>([&] { writer(); }, database(), "user_version 2", "expected 1");
 }
 
 TEST_F(ResultsStoreTest, RefusesAStoreWithOtherColumns) {
   { writer(); }
   runSql(database(), "ALTER TABLE result RENAME COLUMN error TO cost");
-  expectError<StoreError>([&] { writer(); }, {database(), "reason, cost", "reason, error"});
+  expectError<StoreError>([&] { writer(); }, database(), "reason, cost", "reason, error");
   runSql(database(), "DROP TABLE result");
-  expectError<StoreError>([&] { reader(); }, {database(), "no table `result`"});
+  expectError<StoreError>([&] { reader(); }, database(), "no table `result`");
 }
 
 TEST_F(ResultsStoreTest, RefusesADamagedStore) {
@@ -265,7 +265,7 @@ TEST_F(ResultsStoreTest, RefusesADamagedStore) {
   ASSERT_GT(bytes.size(), 40000u);
   bytes.replace(5 * 4096, 4096, 4096, '\xff');
   makeDatabase(bytes);
-  expectError<StoreError>([&] { writer(); }, {database(), "damaged"});
+  expectError<StoreError>([&] { writer(); }, database(), "damaged");
 }
 
 TEST_F(ResultsStoreTest, RefusesValuesThatItWouldNotHaveWritten) {
@@ -274,22 +274,22 @@ TEST_F(ResultsStoreTest, RefusesValuesThatItWouldNotHaveWritten) {
     store.add(fullResult("1"));
   }
   runSql(database(), "UPDATE result SET covariance = '1 2 3'");
-  expectError<StoreError>([&] { reader().results(); }, {database(), "1 2 3", "36 numbers"});
+  expectError<StoreError>([&] { reader().results(); }, database(), "1 2 3", "36 numbers");
   runSql(database(), "UPDATE result SET covariance = NULL, scans_used = -1");
-  expectError<StoreError>([&] { reader().results(); }, {database(), "count of -1"});
+  expectError<StoreError>([&] { reader().results(); }, database(), "count of -1");
   runSql(database(), "PRAGMA ignore_check_constraints = 1; UPDATE result SET kind = 'both'");
-  expectError<StoreError>([&] { reader().finished(); }, {database(), "both", "expected"});
+  expectError<StoreError>([&] { reader().finished(); }, database(), "both", "expected");
 }
 
 TEST_F(ResultsStoreTest, StartsAnewFromTheEmptyFileOfAWriterKilledAtOnce) {
   makeDatabase("");
-  expectError<StoreError>([&] { reader(); }, {database(), "empty database"});
+  expectError<StoreError>([&] { reader(); }, database(), "empty database");
   EXPECT_NO_THROW(writer().add(minimalResult("1")));
 }
 
 TEST_F(ResultsStoreTest, RefusesAFolderThatCannotBeMade) {
   std::ofstream(folder_.file("runs")) << "a file";
-  expectError<StoreError>([&] { writer(); }, {run(), "cannot make this folder"});
+  expectError<StoreError>([&] { writer(); }, run(), "cannot make this folder");
 }
 
 TEST_F(ResultsStoreTest, TakesAnyFolderName) {

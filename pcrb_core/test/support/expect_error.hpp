@@ -6,16 +6,18 @@
 
 namespace pcrb_test {
 
-/// Claims that an action throws an `Exception` whose message holds a text.
-template <typename Exception, typename Action>
-void expectError(Action&& action, const std::string& text) {
+/// Claims that an action throws an `Exception` whose message holds these texts.
+template <typename Exception, typename Action, typename... Texts>
+void expectError(Action&& action, const Texts&... texts) {
   try {
     action();
-    ADD_FAILURE() << "nothing was thrown, expected '" << text << "'";
+    ADD_FAILURE() << "nothing was thrown";
   } catch (const Exception& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find(text), std::string::npos)
-        << "found '" << message << "', expected '" << text << "'";
+    for (const std::string& text : {std::string(texts)...}) {
+      EXPECT_NE(message.find(text), std::string::npos)
+          << "found '" << message << "', expected '" << text << "'";
+    }
   }
 }
 

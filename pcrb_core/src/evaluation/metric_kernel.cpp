@@ -1,0 +1,13 @@
+#include "evaluation/metric_kernel.hpp"
+
+#include "target_clones.hpp"
+
+namespace pcrb {
+
+PCRB_CLONES
+double sumOfNorms(const PointArrays& points, const double* weights,
+                  const Displacement& displacement) {
+  return sumOfNormsBody(points, weights, displacement);
+}
+
+}  // namespace pcrb
