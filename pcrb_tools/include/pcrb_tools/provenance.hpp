@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcrb_tools {
+
+/// What an output file was made from: tool, parameters (seeds included) and input files. It is kept
+/// as YAML in the side file `<output>.yaml`, by which a rerun sees what is complete and unchanged.
+///
+/// Inputs count as unchanged if they have the same names and sizes and are no newer than the
+/// output. The side file holds no times, so that the same inputs and seed give the same bytes.
+class Provenance {
+ public:
+  explicit Provenance(std::string tool) : tool_(std::move(tool)) {}
+
+  void setParameter(const std::string& name, const std::string& value);
+
+  /// @throws pcrb::InvalidFile  if the file does not exist.
+  void addInput(const std::string& path);
+
+  /// What the side file says of tool, parameters and inputs.
+  std::string text() const;
+
+  /// Whether the output is there, complete, as it was written, and made from exactly this.
+  bool isUpToDate(const std::string& output) const;
+
+  /// @throws pcrb::InvalidFile  if the output is there but is not what a side file says: then
+  ///                            somebody else made or changed it and a tool must not replace it.
+  static void requireReplaceable(const std::string& output);
+
+  /// Writes the side file of an output that has just been written.
+  void record(const std::string& output) const;
+
+ private:
+  struct Input {
+    std::string name;
+    std::uintmax_t bytes;
+    std::filesystem::file_time_type modified;
+  };
+
+  std::string tool_;
+  std::vector<std::pair<std::string, std::string>> parameters_;
+  std::vector<Input> inputs_;
+};
+
+/// Path of an output's side file.
+std::string sideFile(const std::string& output);
+
+}  // namespace pcrb_tools

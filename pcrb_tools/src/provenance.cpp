@@ -1,0 +1,82 @@
+#include "pcrb_tools/provenance.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/file_hash.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A YAML scalar in single quotes.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
+std::string outputLine(const std::string& output) {
+  return "output_blake2b: " + pcrb::fileHash(output) + "\n";
+}
+
+}  // namespace
+
+std::string sideFile(const std::string& output) { return output + ".yaml"; }
+
+void Provenance::setParameter(const std::string& name, const std::string& value) {
+  parameters_.emplace_back(name, value);
+}
+
+void Provenance::addInput(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error) throw pcrb::InvalidFile(path, error.message());
+  const auto modified = fs::last_write_time(path, error);
+  if (error) throw pcrb::InvalidFile(path, error.message());
+  inputs_.push_back({fs::path(path).filename().string(), bytes, modified});
+}
+
+std::string Provenance::text() const {
+  std::string text = "# What the file of this name without .yaml was made from.\n";
+  text += "tool: " + tool_ + "\nparameters:\n";
+  for (const auto& [name, value] : parameters_) text += "  " + name + ": " + quoted(value) + "\n";
+  text += "inputs:  # name: bytes\n";
+  for (const Input& input : inputs_) {
+    text += "  " + quoted(input.name) + ": " + std::to_string(input.bytes) + "\n";
+  }
+  return text;
+}
+
+bool Provenance::isUpToDate(const std::string& output) const {
+  std::error_code error;
+  const auto made = fs::last_write_time(output, error);
+  if (error || !fs::is_regular_file(sideFile(output))) return false;
+  const bool is_newest = std::all_of(inputs_.begin(), inputs_.end(),
+                                     [&](const Input& input) { return input.modified <= made; });
+  return is_newest && pcrb::FileBytes(sideFile(output)).text() == text() + outputLine(output);
+}
+
+void Provenance::requireReplaceable(const std::string& output) {
+  if (!fs::exists(output)) return;
+  if (!fs::is_regular_file(sideFile(output))) {
+    throw pcrb::InvalidFile(output,
+                            "is there and was not made by this tool; move it away, or "
+                            "replace it with --force");
+  }
+  const pcrb::FileBytes side(sideFile(output));
+  if (side.text().find(outputLine(output)) == std::string_view::npos) {
+    throw pcrb::InvalidFile(output, "was changed since it was made (" + sideFile(output) +
+                                        "); move it away, or replace it with --force");
+  }
+}
+
+void Provenance::record(const std::string& output) const {
+  pcrb::writeFileAtomically(sideFile(output), text() + outputLine(output));
+}
+
+}  // namespace pcrb_tools
