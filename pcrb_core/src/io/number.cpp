@@ -95,20 +95,21 @@ std::uint64_t valueOf(const Block& block) noexcept {
   return valueOfEight(block.bytes << (64 - 8 * block.digits));
 }
 
-/// The double nearest to w / 10^k if rounding is certain.
-bool divideByPowerOfTen(std::uint64_t w, int k, double& value) noexcept {
-  const int zeros = __builtin_clzll(w);
+/// The double nearest to ± w / 10^k, if rounding is certain; w = 0 never is.
+bool divideByPowerOfTen(std::uint64_t w, int k, bool is_negative, double& value) noexcept {
+  const int zeros = __builtin_clzll(w | 1);
   const Reciprocal& reciprocal = kReciprocals[static_cast<std::size_t>(k)];
-  // The true quotient is between these two, times a power of two: cutting off loses less than 2.
+  // The true quotient is between low and low + 2, times a power of two: cutting off loses less.
   const Uint128 product = static_cast<Uint128>(w << zeros) * reciprocal.mantissa;
   const auto low = static_cast<std::int64_t>(product >> 64);
-  value = static_cast<double>(low);
-  if (value != static_cast<double>(low + 2)) return false;
+  const auto rounded = static_cast<double>(low);
+  if (rounded != static_cast<double>(low + 2)) return false;
   const auto exponent = static_cast<std::uint64_t>(1023 - 62 + reciprocal.shift - zeros);
-  const std::uint64_t bits = exponent << 52;
-  double power_of_two = 0.0;
-  std::memcpy(&power_of_two, &bits, sizeof(bits));
-  value *= power_of_two;
+  // The sign without a branch: half of all predictions would be wrong.
+  const std::uint64_t bits = exponent << 52 | static_cast<std::uint64_t>(is_negative) << 63;
+  double signed_power_of_two = 0.0;
+  std::memcpy(&signed_power_of_two, &bits, sizeof(bits));
+  value = rounded * signed_power_of_two;
   return true;
 }
 
@@ -138,10 +139,7 @@ const char* scanPlainDouble(const char* text, double& value) noexcept {
     digits += decimals;
   }
   if (digits > kMaxDigits || (*text | 0x20) == 'e') return nullptr;
-  double magnitude = 0.0;
-  if (w != 0 && !divideByPowerOfTen(w, decimals, magnitude)) return nullptr;
-  value = is_negative ? -magnitude : magnitude;
-  return text;
+  return divideByPowerOfTen(w, decimals, is_negative, value) ? text : nullptr;
 }
 
 }  // namespace

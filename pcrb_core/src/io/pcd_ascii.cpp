@@ -33,15 +33,15 @@ enum Slot { kX, kY, kZ, kIntensity, kIgnored, kSlots };
 
 /// What the tokens of one field must be.
 struct Column {
-  PcdField field;
-  Slot slot = kIgnored;
+  explicit Column(const PcdField& described)
+      : field(described), slot(slotOf(described)), is_padding(described.isPadding()) {}
 
   /// Reads a token; one past it, or nullptr if it is none or not of this column's type.
   const char* scan(const char* text, const char* end, double& value) const {
-    if (field.type == 'F' && !field.isPadding()) return scanDouble(text, end, value);
+    if (field.type == 'F' && !is_padding) return scanDouble(text, end, value);
     const char* const behind = skipToken(text, end);
     const std::string_view token(text, static_cast<std::size_t>(behind - text));
-    const bool is_good = field.isPadding() ? !token.empty() : parseInteger(token, value);
+    const bool is_good = is_padding ? !token.empty() : parseInteger(token, value);
     return is_good ? behind : nullptr;
   }
 
@@ -53,7 +53,18 @@ struct Column {
            " bits";
   }
 
+  PcdField field;
+  Slot slot;
+  bool is_padding;
+
  private:
+  static Slot slotOf(const PcdField& field) {
+    if (field.name == "x") return kX;
+    if (field.name == "y") return kY;
+    if (field.name == "z") return kZ;
+    return field.name == "intensity" ? kIntensity : kIgnored;
+  }
+
   bool parseInteger(std::string_view token, double& value) const {
     const auto unused_bits = static_cast<int>(64 - 8 * field.size);
     if (field.type == 'I') {
@@ -85,7 +96,7 @@ class AsciiReader {
   AsciiReader(const PcdHeader& header, const LineReader& lines)
       : lines_(lines), points_(header.points) {
     for (const PcdField& field : header.fields) {
-      columns_.push_back({field, slotOf(field.name)});
+      columns_.emplace_back(field);
       tokens_ += field.count;
       has_intensity_ = has_intensity_ || columns_.back().slot == kIntensity;
     }
@@ -108,13 +119,6 @@ class AsciiReader {
   }
 
  private:
-  static Slot slotOf(const std::string& name) {
-    if (name == "x") return kX;
-    if (name == "y") return kY;
-    if (name == "z") return kZ;
-    return name == "intensity" ? kIntensity : kIgnored;
-  }
-
   /// Cuts a text behind line ends into up to `count` parts of about the same size.
   static std::vector<std::string_view> split(std::string_view text, std::size_t count) {
     count = std::min(count, text.size() / kSmallestChunk + 1);
