@@ -19,9 +19,6 @@
 namespace pcrb {
 namespace {
 
-constexpr Range kLocalRotation{0, 30};
-constexpr Range kGlobalRotation{45, 180};
-
 /// Parameters of the published data sets (DESIGN §3), others' defaults.
 Dataset builtIn(const std::string& name, BoundsSource source) {
   const bool is_note = source == BoundsSource::kNote;

@@ -65,7 +65,7 @@ Problem parseRow(const LineReader& lines, const std::vector<std::string_view>& f
                "16: id, source, target, overlap and 12 transform entries");
   }
   if (!isId(fields[0])) lines.fail(inQuotes(fields[0]), kIdRule);
-  for (const std::size_t name : {1, 2}) {
+  for (const unsigned name : {1u, 2u}) {
     if (!isPlainFileName(fields[name])) lines.fail(inQuotes(fields[name]), kNameRule);
   }
   Problem problem;

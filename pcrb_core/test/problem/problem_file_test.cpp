@@ -126,7 +126,7 @@ TEST(ProblemFile, RejectsAnIdTwice) {
 }
 
 TEST(ProblemFile, RejectsNamesThatLeaveTheFolder) {
-  for (const std::size_t field : {1, 2}) {
+  for (const unsigned field : {1u, 2u}) {
     for (const std::string name : {"../a.pcd", "/a.pcd", "..", "a/b.pcd"}) {
       EXPECT_EQ(messageFor(kHeader + rowWith(field, name)),
                 "file.txt:2: found '" + name +
