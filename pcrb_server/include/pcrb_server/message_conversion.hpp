@@ -1,0 +1,34 @@
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+
+#include <string>
+
+#include "pcrb_core/point_cloud.hpp"
+#include "pcrb_core/transform.hpp"
+
+/// The one place where the suite's types become ROS messages and back.
+namespace pcrb {
+
+/// A message of T · cloud: float32 x y z (+ intensity where the cloud has it), little-endian,
+/// dense, height 1. Points are transformed in double.
+///
+/// @param T  from the cloud's local frame to the header's frame.
+sensor_msgs::PointCloud2 toMessage(const PointCloud& cloud, const Transform& T,
+                                   const std_msgs::Header& header);
+
+/// The points of a message; fields are found by name, x y z may be FLOAT32 or FLOAT64. Points with
+/// a non-finite coordinate are left out. The local origin is zero.
+///
+/// @throws InvalidProblem  if a field x, y or z is missing or of another type, the message is
+///                         big-endian, or its sizes do not fit its data.
+PointCloud fromMessage(const sensor_msgs::PointCloud2& message);
+
+geometry_msgs::Pose toMessage(const Transform& T);
+
+/// @throws InvalidProblem  for non-finite numbers or a zero quaternion; others are normalised.
+Transform fromMessage(const geometry_msgs::Pose& pose);
+
+}  // namespace pcrb

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace pcrb {
+
+/// Reads a node's private parameters and collects every mistake, to list them all at once.
+///
+/// Names that nobody asked for are mistakes too: a misspelt parameter must not be ignored in
+/// silence.
+class NodeParameters {
+ public:
+  NodeParameters();
+
+  std::string string(const std::string& name, const std::string& fallback);
+
+  /// Text that must be there and not be empty.
+  std::string requiredString(const std::string& name);
+
+  /// One of several words.
+  std::string choice(const std::string& name, const std::string& fallback,
+                     const std::vector<std::string>& choices);
+
+  bool boolean(const std::string& name, bool fallback);
+  int integer(const std::string& name, int fallback, int min, int max);
+
+  /// A finite number; an integer parameter is accepted.
+  double number(const std::string& name, double fallback, double min, double max);
+
+  /// A list of words: a YAML list, or a string separated by commas or blanks.
+  std::vector<std::string> words(const std::string& name, const std::string& fallback);
+
+  /// Runs a check that throws pcrb::Error on a mistake, and keeps its message.
+  void check(const std::function<void()>& statement);
+
+  void addMistake(const std::string& mistake) { mistakes_.push_back(mistake); }
+
+  /// Throws InvalidParameter with every mistake found so far and every private parameter whose name
+  /// was never asked for; call it after the last read.
+  void finish();
+
+ private:
+  bool find(const std::string& name, XmlRpc::XmlRpcValue& value);
+  void mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
+               const std::string& expected);
+
+  ros::NodeHandle node_;
+  std::set<std::string> asked_;
+  std::vector<std::string> mistakes_;
+};
+
+}  // namespace pcrb

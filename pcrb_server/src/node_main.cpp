@@ -1,0 +1,127 @@
+#include "pcrb_server/node_main.hpp"
+
+#include <pthread.h>
+#include <ros/master.h>
+#include <ros/ros.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+#include <vector>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_server/topics.hpp"
+
+namespace pcrb {
+
+void ShutdownNotice::onShutdown(std::function<void()> callback) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  callback_ = std::move(callback);
+  if (requested_) callback_();
+}
+
+void ShutdownNotice::forget() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  callback_ = nullptr;
+}
+
+bool ShutdownNotice::requested() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return requested_;
+}
+
+void ShutdownNotice::give() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  requested_ = true;
+  if (callback_) callback_();
+}
+
+/// Waits for the signals in a thread of its own, where any function may be called.
+class ShutdownWatcher {
+ public:
+  explicit ShutdownWatcher(ShutdownNotice& notice) : thread_([this, &notice] { watch(notice); }) {}
+  ~ShutdownWatcher() {
+    is_over_ = true;
+    thread_.join();
+  }
+  ShutdownWatcher(const ShutdownWatcher&) = delete;
+  ShutdownWatcher& operator=(const ShutdownWatcher&) = delete;
+
+  static sigset_t signals() {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    return set;
+  }
+
+ private:
+  void watch(ShutdownNotice& notice) {
+    const sigset_t set = signals();
+    const timespec period{0, 50'000'000};
+    while (!is_over_) {
+      const int signal = sigtimedwait(&set, nullptr, &period);
+      if (signal > 0 && notice.requested()) _exit(128 + signal);
+      if (signal > 0 || (ros::isShuttingDown() && !notice.requested())) notice.give();
+    }
+  }
+
+  std::atomic<bool> is_over_{false};
+  std::thread thread_;
+};
+
+namespace {
+
+constexpr double kClockLimit = 5.0;  // s to wait for /clock
+
+void connect() {
+  if (!ros::master::check()) {
+    throw Error("no ROS master at " + ros::master::getURI() +
+                ": start roscore or roslaunch, or set "
+                "ROS_MASTER_URI");
+  }
+  ros::start();
+  if (!ros::Time::waitForValid(ros::WallDuration(kClockLimit))) {
+    throw Error("use_sim_time is set, but nothing was published on /clock within 5 s");
+  }
+}
+
+}  // namespace
+
+int runNode(int argc, char** argv, const NodeHelp& help,
+            const std::function<int(ShutdownNotice&)>& body) {
+  setenv("ROS_NAMESPACE", kDefaultNamespace, 0);
+  std::vector<std::string> arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  CLI::App app(help.description, help.name);
+  app.footer(help.details);
+  try {
+    arguments.erase(arguments.begin());
+    std::reverse(arguments.begin(), arguments.end());
+    app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  const sigset_t signals = ShutdownWatcher::signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  ros::init(argc, argv, help.name, ros::init_options::NoSigintHandler);
+  ShutdownNotice notice;
+  int status = 1;
+  try {
+    const ShutdownWatcher watcher(notice);
+    connect();
+    status = body(notice);
+    notice.forget();
+  } catch (const std::exception& error) {
+    notice.forget();
+    std::cerr << help.name << ": " << error.what() << std::endl;
+  }
+  ros::shutdown();
+  return status;
+}
+
+}  // namespace pcrb
