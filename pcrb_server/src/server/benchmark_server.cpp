@@ -1,0 +1,236 @@
+#include "server/benchmark_server.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <iostream>
+#include <thread>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_server/topics.hpp"
+
+namespace pcrb {
+
+namespace {
+
+constexpr std::uint32_t kServiceThreads = 4;
+constexpr auto kPollPeriod = std::chrono::milliseconds(20);
+constexpr double kReminderPeriod = 5.0;  // s
+
+std::vector<PlannedProblem> withoutFinished(std::vector<PlannedProblem> problems,
+                                            const std::set<ProblemKey>& finished) {
+  const auto is_finished = [&](const PlannedProblem& planned) {
+    return finished.count(planned.key) > 0;
+  };
+  problems.erase(std::remove_if(problems.begin(), problems.end(), is_finished), problems.end());
+  return problems;
+}
+
+double secondsSinceEpoch() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+std::string join(const std::set<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : " ") + name;
+  return text.empty() ? "nobody" : text;
+}
+
+}  // namespace
+
+BenchmarkServer::BenchmarkServer(const ServerParameters& parameters, ShutdownNotice& shutdown)
+    : parameters_(parameters),
+      shutdown_(shutdown),
+      plan_(makeRunPlan(parameters)),
+      record_(parameters, plan_),
+      remaining_(
+          withoutFinished(inServingOrder(plan_.problems, record_.secret()), record_.finished())),
+      done_(plan_.problems.size() - remaining_.size()),
+      is_paused_(!parameters.autostart),
+      tf_(parameters.map_frame, parameters.connect_limit + parameters.time_limit + 10.0),
+      exchange_(parameters.map_frame, std::ref(tf_)),
+      publications_(node_, parameters),
+      loader_(parameters, record_.secret(), remaining_),
+      spinner_(1),
+      service_spinner_(kServiceThreads, &service_queue_) {
+  loader_.checkFrames();
+  offerServices();
+  shutdown_.onShutdown([this] { exchange_.stop(); });
+  spinner_.start();
+  service_spinner_.start();
+}
+
+BenchmarkServer::~BenchmarkServer() {
+  shutdown_.forget();
+  exchange_.stop();
+  service_spinner_.stop();
+  spinner_.stop();
+}
+
+void BenchmarkServer::offerServices() {
+  ros::NodeHandle node;
+  ros::NodeHandle private_node("~");
+  node.setCallbackQueue(&service_queue_);
+  private_node.setCallbackQueue(&service_queue_);
+  using ReadyEvent = ros::ServiceEvent<pcrb_msgs::Ready::Request, pcrb_msgs::Ready::Response>;
+  services_.push_back(
+      node.advertiseService<ReadyEvent>(services::kReady, [this](ReadyEvent& event) {
+        exchange_.ready(event.getCallerName(), event.getRequest(), event.getResponse());
+        return true;
+      }));
+  using pcrb_msgs::SubmitPose;
+  services_.push_back(node.advertiseService<SubmitPose::Request, SubmitPose::Response>(
+      services::kSubmitPose, [this](SubmitPose::Request& request, SubmitPose::Response& response) {
+        exchange_.submit(request, response);
+        return true;
+      }));
+  const auto offer = [&](const char* name, const char* message,
+                         const std::function<void()>& action) {
+    using std_srvs::Trigger;
+    services_.push_back(private_node.advertiseService<Trigger::Request, Trigger::Response>(
+        name, [message, action](Trigger::Request&, Trigger::Response& response) {
+          action();
+          response.success = 1;
+          response.message = message;
+          return true;
+        }));
+  };
+  offer(services::kStart, "running", [this] { is_paused_ = false; });
+  offer(services::kPause, "paused after the problem in flight", [this] { is_paused_ = true; });
+  offer(services::kSkip, "the problem in flight is skipped", [this] { exchange_.skip(); });
+}
+
+bool BenchmarkServer::run() {
+  RunProgress progress(done_, plan_.problems.size());
+  for (std::size_t i = 0; i < remaining_.size(); ++i) {
+    waitForStart();
+    if (!parameters_.handshake) waitForListener();
+    if (shutdown_.requested() || !serve(loader_.next())) break;
+    progress.add();
+  }
+  return conclude();
+}
+
+void BenchmarkServer::waitForStart() {
+  while (is_paused_ && !shutdown_.requested()) std::this_thread::sleep_for(kPollPeriod);
+}
+
+void BenchmarkServer::waitForListener() {
+  const auto start = Exchange::Clock::now();
+  while (publications_.listeners().empty() && !shutdown_.requested()) {
+    const std::chrono::duration<double> waited = Exchange::Clock::now() - start;
+    if (waited.count() > parameters_.connect_limit) {
+      throw Error("no client subscribed to `" + node_.resolveName(topics::kProblem) + "` within " +
+                  std::to_string(parameters_.connect_limit) +
+                  " s; rviz, rosbag and rostopic do not count");
+    }
+    std::this_thread::sleep_for(kPollPeriod);
+  }
+}
+
+Announcement BenchmarkServer::nextAnnouncement(const PreparedProblem& prepared) {
+  last_stamp_ = std::max(ros::Time::now(), last_stamp_ + ros::Duration(0, 1));
+  Announcement announcement;
+  announcement.problem_id = record_.secret().publicId(prepared.planned->subject());
+  announcement.stamp = last_stamp_;
+  announcement.index = static_cast<std::uint32_t>(done_);
+  announcement.count = static_cast<std::uint32_t>(plan_.problems.size());
+  return announcement;
+}
+
+bool BenchmarkServer::serve(PreparedProblem prepared) {
+  for (const auto& cloud : {prepared.target, prepared.source}) {
+    record_.noteCloud(cloud->name, cloud->hash);
+  }
+  const Announcement announcement = nextAnnouncement(prepared);
+  exchange_.announce(announcement.problem_id, announcement.stamp);
+  publications_.announce(prepared, announcement);
+  const bool is_waited_for = !parameters_.handshake || waitForClient(prepared, announcement);
+  if (!is_waited_for) return false;
+  exchange_.handOut(std::chrono::duration<double>(parameters_.time_limit));
+  publications_.handOut(prepared, announcement);
+  Reply reply;
+  if (exchange_.waitReply(reply) == Exchange::Wait::kStopped) return false;
+  const Result result = score(prepared, reply);
+  record_.add(result);
+  ++done_;
+  publications_.finish(prepared, announcement, result);
+  return true;
+}
+
+bool BenchmarkServer::waitForClient(const PreparedProblem&, const Announcement&) {
+  const bool is_first = exchange_.client().empty();
+  const double limit = is_first ? parameters_.connect_limit : parameters_.ready_limit;
+  const auto start = Exchange::Clock::now();
+  while (true) {
+    const std::chrono::duration<double> waited = Exchange::Clock::now() - start;
+    const double rest = limit - waited.count();
+    const auto wait =
+        exchange_.waitReady(std::chrono::duration<double>(std::min(rest, kReminderPeriod)));
+    if (wait == Exchange::Wait::kStopped) return false;
+    if (wait != Exchange::Wait::kLimit) break;
+    const std::string service = node_.resolveName(services::kReady);
+    const std::string listeners = join(publications_.listeners());
+    if (rest <= kReminderPeriod) {
+      throw Error("no client called `" + service + "` within " + std::to_string(limit) +
+                  " s (subscribed to `" + node_.resolveName(topics::kProblem) + "`: " + listeners +
+                  "); results so far are kept: start again with the same ~run to go on");
+    }
+    std::cout << "waiting for a client to call " << service << " (subscribed: " << listeners << ")"
+              << std::endl;
+  }
+  if (is_first) record_.noteClient(exchange_.client());
+  return true;
+}
+
+Result BenchmarkServer::score(const PreparedProblem& prepared, const Reply& reply) const {
+  const PlannedProblem& planned = *prepared.planned;
+  const Metric& metric = *prepared.source->metric;
+  Result result;
+  result.key = planned.key;
+  result.source = planned.problem.source;
+  result.target = planned.problem.target;
+  result.overlap = planned.problem.overlap;
+  result.outcome = reply.outcome;
+  result.reason = reply.reason;
+  result.initial_misalignment = metric.evaluate(prepared.P).error;
+  Transform T_residual = prepared.P;  // of the initial guess: what a problem without a reply gets
+  if (reply.outcome == Outcome::kReplied) {
+    result.position = reply.position;
+    result.orientation = reply.orientation;
+    result.covariance = reply.covariance;
+    T_residual = prepared.presentation.residual(makeTransform(reply.position, reply.orientation));
+  }
+  const PoseError error = metric.evaluate(T_residual);
+  result.error = error.error;
+  result.rotation_error = error.rotation_error;
+  result.translation_error = error.translation_error;
+  result.runtime = reply.runtime;
+  result.solver_time = reply.solver_time;
+  result.scans_used = reply.scans_used;
+  result.target_changed = prepared.target_message != nullptr;
+  result.replies_rejected = reply.rejected;
+  result.finished = secondsSinceEpoch();
+  return result;
+}
+
+bool BenchmarkServer::conclude() {
+  exchange_.endRun();
+  const auto summaries = record_.summary();
+  const bool is_finished = done_ == plan_.problems.size();
+  const std::string table = formatSummary(summaries);
+  record_.writeExports(table);
+  std::cout << '\n' << table << std::flush;
+  if (!is_finished) {
+    std::cout << done_ << " of " << plan_.problems.size()
+              << " problems have a result; start again with the same ~run to go on" << std::endl;
+  }
+  publications_.summary(summaries, is_finished);
+  const auto end = Exchange::Clock::now() + std::chrono::duration<double>(parameters_.linger);
+  while (is_finished && !shutdown_.requested() && Exchange::Clock::now() < end) {
+    std::this_thread::sleep_for(kPollPeriod);
+  }
+  return is_finished;
+}
+
+}  // namespace pcrb

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <std_srvs/Trigger.h>
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "pcrb_server/node_main.hpp"
+#include "server/exchange.hpp"
+#include "server/problem_loader.hpp"
+#include "server/publications.hpp"
+#include "server/run_plan.hpp"
+#include "server/run_progress.hpp"
+#include "server/run_record.hpp"
+#include "server/server_parameters.hpp"
+#include "server/tf_lookup.hpp"
+
+namespace pcrb {
+
+/// The referee: hands problems out one after the other, scores the replies, and keeps the results.
+///
+/// One thread (the caller's) runs the loop; services run in threads of their own; problems are
+/// prepared one ahead in another. A result is on the disk before the next problem is announced.
+class BenchmarkServer {
+ public:
+  /// Opens or resumes the run and offers topics and services.
+  /// @throws Error  if the run cannot be posed.
+  BenchmarkServer(const ServerParameters& parameters, ShutdownNotice& shutdown);
+  ~BenchmarkServer();
+  BenchmarkServer(const BenchmarkServer&) = delete;
+  BenchmarkServer& operator=(const BenchmarkServer&) = delete;
+
+  /// Serves every problem that has no result yet, then writes and publishes the summary.
+  ///
+  /// @return  true if every problem of the run has a result in the end.
+  /// @throws Error  if nobody comes for a problem, or a cloud cannot be served.
+  bool run();
+
+ private:
+  void offerServices();
+  void waitForStart();
+  void waitForListener();
+  bool serve(PreparedProblem prepared);
+  bool waitForClient(const PreparedProblem& prepared, const Announcement& announcement);
+  Result score(const PreparedProblem& prepared, const Reply& reply) const;
+  Announcement nextAnnouncement(const PreparedProblem& prepared);
+  bool conclude();
+
+  const ServerParameters& parameters_;
+  ShutdownNotice& shutdown_;
+  RunPlan plan_;
+  RunRecord record_;
+  std::vector<PlannedProblem> remaining_;
+  std::size_t done_ = 0;  ///< problems that have a result
+  ros::Time last_stamp_;
+  std::atomic<bool> is_paused_;
+
+  ros::NodeHandle node_;
+  ros::CallbackQueue service_queue_;
+  TfLookup tf_;
+  Exchange exchange_;
+  Publications publications_;
+  ProblemLoader loader_;
+  std::vector<ros::ServiceServer> services_;
+  ros::AsyncSpinner spinner_;          ///< for subscriptions: tf
+  ros::AsyncSpinner service_spinner_;  ///< for services
+};
+
+}  // namespace pcrb

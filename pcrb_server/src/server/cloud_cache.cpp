@@ -1,0 +1,34 @@
+#include "server/cloud_cache.hpp"
+
+namespace pcrb {
+
+namespace {
+
+/// Memory of a cloud and of the metric that may be computed from it (4 doubles a point).
+std::size_t bytesOf(const LoadedCloud& loaded) {
+  return loaded.cloud.size() * (sizeof(Eigen::Vector3f) + 4 * sizeof(double)) +
+         loaded.cloud.intensity.size() * sizeof(float);
+}
+
+}  // namespace
+
+std::shared_ptr<LoadedCloud> CloudCache::find(const Key& key) {
+  const auto found = index_.find(key);
+  if (found == index_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, found->second);
+  return found->second->cloud;
+}
+
+void CloudCache::insert(const Key& key, std::shared_ptr<LoadedCloud> cloud) {
+  const std::size_t bytes = bytesOf(*cloud);
+  entries_.push_front({key, std::move(cloud), bytes});
+  index_[key] = entries_.begin();
+  bytes_ += bytes;
+  while (bytes_ > limit_bytes_ && entries_.size() > 1) {
+    bytes_ -= entries_.back().bytes;
+    index_.erase(entries_.back().key);
+    entries_.pop_back();
+  }
+}
+
+}  // namespace pcrb

@@ -1,0 +1,246 @@
+#include "server/exchange.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pcrb_server/message_conversion.hpp"
+
+namespace pcrb {
+
+namespace {
+
+using Request = pcrb_msgs::SubmitPose::Request;
+using Response = pcrb_msgs::SubmitPose::Response;
+
+constexpr double kUnitQuaternionTolerance = 1e-3;
+
+std::chrono::steady_clock::duration steady(std::chrono::duration<double> duration) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
+}
+
+bool isFinite(const Request& request) {
+  const auto& p = request.pose.pose.position;
+  const auto& q = request.pose.pose.orientation;
+  for (const double number : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) {
+    if (!std::isfinite(number)) return false;
+  }
+  return request.has_covariance == 0 ||
+         std::all_of(request.covariance.begin(), request.covariance.end(),
+                     [](double number) { return std::isfinite(number); });
+}
+
+Eigen::Quaterniond orientationOf(const Request& request) {
+  const auto& q = request.pose.pose.orientation;
+  return {q.w, q.x, q.y, q.z};
+}
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+Outcome outcomeOf(std::uint8_t status) {
+  if (status == Request::POSE) return Outcome::kReplied;
+  return status == Request::FAILED ? Outcome::kFailed : Outcome::kTimedOut;
+}
+
+}  // namespace
+
+Exchange::Exchange(std::string target_frame, Lookup lookup)
+    : target_frame_(std::move(target_frame)), lookup_(std::move(lookup)) {}
+
+void Exchange::announce(const std::string& problem_id, const ros::Time& stamp) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  phase_ = Phase::kAnnounced;
+  problem_id_ = problem_id;
+  stamp_ = stamp;
+  is_ready_ = false;
+  is_skipped_ = false;
+  rejected_ = 0;
+  last_rejection_.clear();
+  reply_.reset();
+}
+
+Exchange::Wait Exchange::waitFor(std::unique_lock<std::mutex>& lock, Clock::time_point deadline,
+                                 const std::function<bool()>& done) {
+  changed_.wait_until(lock, deadline, [&] { return done() || is_skipped_ || is_stopped_; });
+  if (is_stopped_) return Wait::kStopped;
+  if (done()) return Wait::kDone;
+  return is_skipped_ ? Wait::kSkipped : Wait::kLimit;
+}
+
+Exchange::Wait Exchange::waitReady(std::chrono::duration<double> limit) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return waitFor(lock, Clock::now() + steady(limit), [this] { return is_ready_; });
+}
+
+void Exchange::handOut(std::chrono::duration<double> limit) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  phase_ = Phase::kHandedOut;
+  handed_out_ = Clock::now();
+  deadline_ = handed_out_ + steady(limit);
+}
+
+Exchange::Wait Exchange::waitReply(Reply& reply) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const Wait wait = waitFor(lock, deadline_, [this] { return reply_.has_value(); });
+  reply = reply_.value_or(Reply());
+  reply.rejected = rejected_;
+  if (wait == Wait::kSkipped) {
+    reply.outcome = Outcome::kSkipped;
+    reply.reason = "skipped on request";
+  } else if (wait == Wait::kLimit) {
+    reply.outcome = rejected_ > 0 ? Outcome::kRejected : Outcome::kTimedOut;
+    reply.reason = rejected_ > 0 ? last_rejection_ : "no reply within the time limit";
+  }
+  phase_ = Phase::kIdle;
+  ended_[problem_id_] = wait == Wait::kDone;
+  return wait;
+}
+
+void Exchange::endRun() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  phase_ = Phase::kRunOver;
+}
+
+void Exchange::ready(const std::string& caller, const pcrb_msgs::Ready::Request& request,
+                     pcrb_msgs::Ready::Response& response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  response.accepted = phase_ == Phase::kAnnounced && request.problem_id == problem_id_ ? 1 : 0;
+  if (response.accepted != 0) {
+    is_ready_ = true;
+    client_ = caller;
+    changed_.notify_all();
+  } else if (inFlight(request.problem_id)) {
+    response.message = "the problem's source has been handed out already";
+  } else {
+    response.message = "found problem_id `" + request.problem_id +
+                       "`, expected that of the problem announced last";
+  }
+}
+
+bool Exchange::inFlight(const std::string& problem_id) const {
+  return (phase_ == Phase::kAnnounced || phase_ == Phase::kHandedOut) && problem_id == problem_id_;
+}
+
+Exchange::Code Exchange::check(const Request& request, Clock::time_point arrival,
+                               std::string& message) const {
+  const auto ended = ended_.find(request.problem_id);
+  if (ended != ended_.end()) {
+    message = ended->second ? "the problem has been answered already" : "the problem has ended";
+    return ended->second ? Response::DUPLICATE : Response::LATE;
+  }
+  if (!inFlight(request.problem_id)) {
+    message =
+        "found problem_id `" + request.problem_id + "`, expected that of an announced problem";
+    return Response::UNKNOWN_PROBLEM;
+  }
+  if (phase_ == Phase::kAnnounced) {
+    message = "the problem's source has not been handed out: call `ready` first";
+    return Response::NOT_RUNNING;
+  }
+  if (reply_) {
+    message = "the problem has been answered already";
+    return Response::DUPLICATE;
+  }
+  if (arrival > deadline_) {
+    message = "the time limit is over";
+    return Response::LATE;
+  }
+  if (request.status > Request::TIMED_OUT) {
+    message = "found status " + std::to_string(request.status) + ", expected 0, 1 or 2";
+    return Response::NOT_FINITE;
+  }
+  return request.status == Request::POSE ? checkPose(request, message) : Code{Response::OK};
+}
+
+Exchange::Code Exchange::checkPose(const Request& request, std::string& message) const {
+  if (!isFinite(request)) {
+    message = "found a NaN or infinite number in the pose, expected finite ones";
+    return Response::NOT_FINITE;
+  }
+  const double norm = orientationOf(request).norm();
+  if (std::abs(norm - 1.0) > kUnitQuaternionTolerance) {
+    message = "found a quaternion of norm " + std::to_string(norm) + ", expected 1";
+    return Response::NOT_UNIT_QUATERNION;
+  }
+  return Response::OK;
+}
+
+std::optional<Transform> Exchange::toTarget(const Request& request) const {
+  const std::string frame = withoutSlash(request.pose.header.frame_id);
+  const bool has_stamp = !request.pose.header.stamp.isZero();
+  return lookup_(frame, has_stamp ? request.pose.header.stamp : stamp_);
+}
+
+void Exchange::submit(const Request& request, Response& response) {
+  const Clock::time_point arrival = Clock::now();
+  std::unique_lock<std::mutex> lock(mutex_);
+  response.code = check(request, arrival, response.message);
+  const std::string frame = withoutSlash(request.pose.header.frame_id);
+  std::optional<Transform> T_target_frame;
+  const bool is_elsewhere = !frame.empty() && frame != target_frame_;
+  if (response.code == Response::OK && request.status == Request::POSE && is_elsewhere) {
+    lock.unlock();  // tf may make us wait, and nobody else must
+    T_target_frame = toTarget(request);
+    lock.lock();
+    response.code = check(request, arrival, response.message);  // the problem may have ended
+    if (response.code == Response::OK && !T_target_frame) {
+      response.code = Response::NO_TRANSFORM;
+      response.message = "tf does not connect `" + frame + "` with `" + target_frame_ + "`";
+    }
+  }
+  response.accepted = response.code == Response::OK ? 1 : 0;
+  if (response.accepted != 0) {
+    accept(request, arrival, T_target_frame);
+  } else if (inFlight(request.problem_id) && !reply_) {
+    ++rejected_;
+    last_rejection_ = response.message;
+  }
+}
+
+void Exchange::accept(const Request& request, Clock::time_point arrival,
+                      const std::optional<Transform>& T_target_frame) {
+  Reply reply;
+  reply.outcome = outcomeOf(request.status);
+  reply.reason = request.reason;
+  reply.runtime = std::chrono::duration<double>(arrival - handed_out_).count();
+  if (std::isfinite(request.solver_time)) reply.solver_time = request.solver_time;
+  if (request.scans_used > 0) reply.scans_used = request.scans_used;
+  if (reply.outcome == Outcome::kReplied) {
+    const auto& p = request.pose.pose.position;
+    reply.position = {p.x, p.y, p.z};
+    reply.orientation = orientationOf(request).normalized();
+    if (T_target_frame) {
+      reply.position = *T_target_frame * reply.position;
+      reply.orientation =
+          (Eigen::Quaterniond(T_target_frame->linear()) * reply.orientation).normalized();
+    }
+    if (request.has_covariance != 0) {
+      reply.covariance.emplace();
+      std::copy(request.covariance.begin(), request.covariance.end(), reply.covariance->begin());
+    }
+  } else if (reply.reason.empty()) {
+    reply.reason = "the client gave no reason";
+  }
+  reply_ = reply;
+  changed_.notify_all();
+}
+
+void Exchange::skip() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_skipped_ = true;
+  changed_.notify_all();
+}
+
+void Exchange::stop() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_stopped_ = true;
+  changed_.notify_all();
+}
+
+std::string Exchange::client() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return client_;
+}
+
+}  // namespace pcrb

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <pcrb_msgs/Ready.h>
+#include <pcrb_msgs/SubmitPose.h>
+#include <ros/time.h>
+
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "pcrb_core/evaluation/result.hpp"
+#include "pcrb_core/transform.hpp"
+
+namespace pcrb {
+
+/// How a problem ended, as far as its client is concerned.
+struct Reply {
+  Outcome outcome = Outcome::kTimedOut;
+  std::string reason;
+  std::optional<double> runtime;                                    ///< s
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< where kReplied
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< unit, where kReplied
+  std::optional<std::array<double, 36>> covariance;
+  std::optional<double> solver_time;  ///< s
+  std::optional<std::uint32_t> scans_used;
+  std::uint32_t rejected = 0;  ///< rejected replies to this problem before it ended
+};
+
+/// The problem in flight, between the server's loop and the threads of its services.
+///
+/// The loop announces a problem, waits for `ready`, hands the source out, waits for the reply; the
+/// services call ready() and submit() at any time. All times are of the steady clock.
+class Exchange {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// T_target_frame at a time, or nothing where tf does not connect the two.
+  using Lookup =
+      std::function<std::optional<Transform>(const std::string& frame, const ros::Time& stamp)>;
+
+  enum class Wait { kDone, kLimit, kSkipped, kStopped };
+
+  Exchange(std::string target_frame, Lookup lookup);
+
+  // For the loop.
+  void announce(const std::string& problem_id, const ros::Time& stamp);
+  Wait waitReady(std::chrono::duration<double> limit);
+  void handOut(std::chrono::duration<double> limit);
+  /// Waits for the reply and closes the problem; the reply says how it ended. kStopped: no reply.
+  Wait waitReply(Reply& reply);
+  void endRun();
+
+  // For the services.
+  void ready(const std::string& caller, const pcrb_msgs::Ready::Request& request,
+             pcrb_msgs::Ready::Response& response);
+  void submit(const pcrb_msgs::SubmitPose::Request& request,
+              pcrb_msgs::SubmitPose::Response& response);
+  void skip();
+  void stop();  ///< ends every wait, for good
+
+  /// Name of the node that called ready() last; empty before.
+  std::string client() const;
+
+ private:
+  enum class Phase { kIdle, kAnnounced, kHandedOut, kRunOver };
+  using Code = std::uint8_t;
+
+  Code check(const pcrb_msgs::SubmitPose::Request& request, Clock::time_point arrival,
+             std::string& message) const;
+  Code checkPose(const pcrb_msgs::SubmitPose::Request& request, std::string& message) const;
+  std::optional<Transform> toTarget(const pcrb_msgs::SubmitPose::Request& request) const;
+  void accept(const pcrb_msgs::SubmitPose::Request& request, Clock::time_point arrival,
+              const std::optional<Transform>& T_target_frame);
+  Wait waitFor(std::unique_lock<std::mutex>& lock, Clock::time_point deadline,
+               const std::function<bool()>& done);
+  bool inFlight(const std::string& problem_id) const;
+
+  const std::string target_frame_;
+  const Lookup lookup_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  Phase phase_ = Phase::kIdle;
+  std::string problem_id_;
+  ros::Time stamp_;
+  Clock::time_point handed_out_;
+  Clock::time_point deadline_;
+  bool is_ready_ = false;
+  bool is_skipped_ = false;
+  bool is_stopped_ = false;
+  std::string client_;
+  std::string last_rejection_;
+  std::uint32_t rejected_ = 0;
+  std::optional<Reply> reply_;
+  std::map<std::string, bool> ended_;  ///< id → whether a reply had been accepted
+};
+
+}  // namespace pcrb

@@ -1,0 +1,127 @@
+#include "server/problem_loader.hpp"
+
+#include <filesystem>
+#include <set>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_hash.hpp"
+#include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/problem/perturbation.hpp"
+#include "pcrb_server/message_conversion.hpp"
+
+namespace pcrb {
+
+namespace {
+
+CloudCache::Key cacheKey(const std::string& path, const Eigen::Vector3d& origin) {
+  return {path, {origin.x(), origin.y(), origin.z()}};
+}
+
+}  // namespace
+
+ProblemLoader::ProblemLoader(const ServerParameters& parameters, const Secret& secret,
+                             const std::vector<PlannedProblem>& problems)
+    : parameters_(parameters),
+      secret_(secret),
+      problems_(problems),
+      cache_(parameters.cache_bytes) {}
+
+ProblemLoader::~ProblemLoader() {
+  if (next_.valid()) next_.wait();
+}
+
+void ProblemLoader::checkFrames() {
+  std::set<std::pair<std::string, Kind>> seen;
+  for (std::size_t i = 0; i < problems_.size(); ++i) {
+    const ProblemKey& key = problems_[i].key;
+    if (seen.insert({key.data_set + "/" + key.sequence, key.kind}).second) prepare(i);
+  }
+}
+
+PreparedProblem ProblemLoader::next() {
+  if (!next_.valid()) prefetch();
+  PreparedProblem prepared = next_.get();
+  prefetch();
+  return prepared;
+}
+
+void ProblemLoader::prefetch() {
+  if (position_ == problems_.size()) return;
+  next_ = std::async(std::launch::async, [this, i = position_] { return prepare(i); });
+  ++position_;
+}
+
+std::shared_ptr<LoadedCloud> ProblemLoader::makeLoaded(const std::string& path,
+                                                       const DatasetCloud& read,
+                                                       const Eigen::Vector3d& local_origin) {
+  auto loaded = std::make_shared<LoadedCloud>();
+  loaded->name = std::filesystem::path(path).lexically_relative(parameters_.root);
+  loaded->hash = fileHash(path);
+  loaded->cloud = makeLocal(read, local_origin);
+  loaded->has_viewpoint = read.hasViewpoint();
+  loaded->viewpoint = read.viewpoint;
+  loaded->viewpoint.translation() -= local_origin;
+  cache_.insert(cacheKey(path, local_origin), loaded);
+  return loaded;
+}
+
+std::shared_ptr<LoadedCloud> ProblemLoader::loadTarget(const std::string& path) {
+  const auto origin = origins_.find(path);
+  if (origin != origins_.end()) {
+    if (auto loaded = cache_.find(cacheKey(path, origin->second))) return loaded;
+  }
+  const DatasetCloud cloud = readPcd(path, {parameters_.load_threads});
+  origins_[path] = chooseLocalOrigin(cloud);
+  return makeLoaded(path, cloud, origins_[path]);
+}
+
+std::shared_ptr<LoadedCloud> ProblemLoader::loadSource(const std::string& path,
+                                                       const Eigen::Vector3d& local_origin) {
+  auto loaded = cache_.find(cacheKey(path, local_origin));
+  if (!loaded) {
+    loaded = makeLoaded(path, readPcd(path, {parameters_.load_threads}), local_origin);
+  }
+  if (!loaded->metric) loaded->metric = std::make_shared<const Metric>(loaded->cloud);
+  return loaded;
+}
+
+PreparedProblem ProblemLoader::prepare(std::size_t position) {
+  PreparedProblem prepared;
+  prepared.planned = &problems_[position];
+  try {
+    pose(prepared, position == 0 ? "" : problems_[position - 1].target_path);
+  } catch (const Error& error) {
+    const ProblemKey& key = prepared.planned->key;
+    throw InvalidProblem(key.data_set + "/" + key.sequence + ", problem " + key.problem_id + ": " +
+                         error.what());
+  }
+  return prepared;
+}
+
+void ProblemLoader::pose(PreparedProblem& prepared, const std::string& previous_target) {
+  const PlannedProblem& planned = *prepared.planned;
+  const auto target = loadTarget(planned.target_path);
+  const Eigen::Vector3d& origin = target->cloud.local_origin;
+  const auto source = loadSource(planned.source_path, origin);
+  const Eigen::Vector3d centroid = source->metric->centroid();
+  checkFrame(planned.P, centroid + origin, planned.data_set->bounds(planned.key.kind));
+  prepared.P = inLocalFrame(planned.P, origin);
+  if (parameters_.presentation == PresentationKind::kRegistration) {
+    prepared.presentation = presentForRegistration(prepared.P);
+  } else {
+    const Transform V = secretSensorPose(secret_, planned.subject(), source->has_viewpoint,
+                                         source->viewpoint, centroid, parameters_.upright);
+    prepared.presentation = presentForLocalization(prepared.P, V);
+  }
+  const std_msgs::Header header;
+  prepared.source_message = boost::make_shared<sensor_msgs::PointCloud2>(
+      toMessage(source->cloud, prepared.presentation.applied, header));
+  if (planned.target_path != previous_target) {
+    prepared.target_message = boost::make_shared<sensor_msgs::PointCloud2>(
+        toMessage(target->cloud, Transform::Identity(), header));
+  }
+  prepared.target = target;
+  prepared.source = source;
+}
+
+}  // namespace pcrb

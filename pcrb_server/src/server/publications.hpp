@@ -1,0 +1,77 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "pcrb_core/evaluation/metric.hpp"
+#include "pcrb_core/evaluation/result.hpp"
+#include "pcrb_core/evaluation/summary.hpp"
+#include "server/problem_loader.hpp"
+#include "server/server_parameters.hpp"
+
+namespace pcrb {
+
+/// Where a problem stands in its run, and what it is called there.
+struct Announcement {
+  std::string problem_id;  ///< random
+  ros::Time stamp;
+  std::uint32_t index = 0;
+  std::uint32_t count = 0;
+};
+
+/// Everything that the server publishes. Nothing here gives a problem's answer away before it has
+/// ended.
+class Publications {
+ public:
+  Publications(ros::NodeHandle& node, const ServerParameters& parameters);
+
+  /// Publishes the target, if it has changed, and the problem.
+  void announce(const PreparedProblem& prepared, const Announcement& announcement);
+
+  /// Publishes the initial guess, where there is one, and the source.
+  void handOut(const PreparedProblem& prepared, const Announcement& announcement);
+
+  /// Publishes a stored result, and where the reply puts the source.
+  void finish(const PreparedProblem& prepared, const Announcement& announcement,
+              const Result& result);
+
+  void summary(const std::vector<SequenceSummary>& summaries, bool finished);
+
+  /// Nodes that listen to `problem`; those that only watch (rviz, rosbag, rostopic) excepted.
+  std::set<std::string> listeners() const;
+
+ private:
+  void showReply(const PreparedProblem& prepared, const Announcement& announcement,
+                 const Result& result);
+  void showTruth(const PreparedProblem& prepared, const Announcement& announcement);
+  void broadcast(const std::string& parent, const std::string& child, const Transform& T,
+                 const ros::Time& stamp, bool is_static);
+  bool hasGuess(const PreparedProblem& prepared) const;
+
+  const ServerParameters& parameters_;
+  ros::Time target_stamp_;
+
+  mutable std::mutex mutex_;
+  std::multiset<std::string> listeners_;
+
+  tf2_ros::TransformBroadcaster tf_;
+  tf2_ros::StaticTransformBroadcaster static_tf_;
+  ros::Publisher target_;
+  ros::Publisher source_;
+  ros::Publisher problem_;
+  ros::Publisher initial_pose_;
+  ros::Publisher result_;
+  ros::Publisher summary_;
+  ros::Publisher source_aligned_;
+  ros::Publisher markers_;
+  ros::Publisher truth_;
+  ros::Publisher perturbation_;
+};
+
+}  // namespace pcrb

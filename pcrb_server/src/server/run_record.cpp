@@ -1,0 +1,107 @@
+#include "server/run_record.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+
+#include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb {
+
+namespace {
+
+constexpr const char* kMetricVersion = "1";
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+std::string hostName() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// What must be the same whenever this run is resumed.
+std::map<std::string, std::string> identity(const ServerParameters& parameters,
+                                            const RunPlan& plan) {
+  std::map<std::string, std::string> info = configuration(parameters);
+  info["metric_version"] = kMetricVersion;
+  for (const auto& [name, hash] : plan.problem_files) info["problem_file " + name] = hash;
+  return info;
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const ServerParameters& parameters, const RunPlan& plan)
+    : folder_(parameters.run),
+      store_(parameters.run, ResultsStore::Access::kReadWrite),
+      info_(store_.runInfo()) {
+  const auto expected = identity(parameters, plan);
+  if (info_.empty()) {
+    secret_ = Secret::draw();
+    info_ = expected;
+    info_["secret"] = secret_.toHex();
+    info_["code_version"] = PCRB_VERSION;
+    info_["root"] = parameters.root;
+    info_["created"] = formatShortest(now());
+    info_["problems"] = std::to_string(plan.problems.size());
+    store_.setRunInfo(info_);
+  } else {
+    requireSame(info_, expected);
+    secret_ = Secret::fromHex(info_["secret"]);
+  }
+  store_.beginSession(now(), hostName(), getpid());
+}
+
+RunRecord::~RunRecord() {
+  try {
+    store_.endSession(now());
+  } catch (const Error&) {
+    // A session without an end is what a full disk or a kill leaves, too.
+  }
+}
+
+void RunRecord::requireSame(const std::map<std::string, std::string>& found,
+                            const std::map<std::string, std::string>& expected) const {
+  std::string differences;
+  for (const auto& [key, value] : expected) {
+    const auto there = found.find(key);
+    const std::string before = there == found.end() ? "nothing" : "`" + there->second + "`";
+    if (there != found.end() && there->second == value) continue;
+    differences += "\n  " + key + ": the run has " + before + ", asked for `" + value + "`";
+  }
+  for (const auto& [key, value] : found) {
+    const bool is_problem_file = key.rfind("problem_file ", 0) == 0;
+    if (is_problem_file && expected.count(key) == 0) differences += "\n  " + key + ": not selected";
+  }
+  if (differences.empty()) return;
+  throw StoreError(store_.path() +
+                   ": holds a run of another configuration: give another ~run, or the"
+                   " parameters of this one" +
+                   differences);
+}
+
+void RunRecord::noteCloud(const std::string& name, const std::string& hash) {
+  const auto [entry, is_new] = info_.emplace("cloud " + name, hash);
+  if (is_new) {
+    store_.updateRunInfo(entry->first, hash);
+  } else if (entry->second != hash) {
+    throw StoreError(store_.path() + ": " + entry->first +
+                     ": the file has changed since this run used it");
+  }
+}
+
+void RunRecord::noteClient(const std::string& name) {
+  if (info_["client"] == name) return;
+  info_["client"] = name;
+  store_.updateRunInfo("client", name);
+}
+
+void RunRecord::writeExports(const std::string& summary_text) {
+  store_.exportCsv();
+  writeFileAtomically(folder_ + "/summary.txt", summary_text);
+}
+
+}  // namespace pcrb

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/evaluation/summary.hpp"
+#include "pcrb_core/problem/secret.hpp"
+#include "server/run_plan.hpp"
+#include "server/server_parameters.hpp"
+
+namespace pcrb {
+
+/// A run folder: opens or resumes it, keeps its results, and writes its exports at the end.
+class RunRecord {
+ public:
+  /// @throws StoreError  if the folder holds a run of another configuration (naming every
+  /// difference),
+  ///                     of other problem files, or cannot be used.
+  RunRecord(const ServerParameters& parameters, const RunPlan& plan);
+  ~RunRecord();
+  RunRecord(const RunRecord&) = delete;
+  RunRecord& operator=(const RunRecord&) = delete;
+
+  const Secret& secret() const { return secret_; }
+  std::set<ProblemKey> finished() const { return store_.finished(); }
+
+  /// Records the hash of a cloud that is about to be served.
+  /// @throws StoreError  if the run has used other content under that name.
+  void noteCloud(const std::string& name, const std::string& hash);
+
+  void noteClient(const std::string& name);
+
+  /// Commits a result: it is on the disk when this returns.
+  void add(const Result& result) { store_.add(result); }
+
+  /// Statistics of all results so far.
+  std::vector<SequenceSummary> summary() const { return summarize(store_.results()); }
+
+  /// Writes results.csv and summary.txt.
+  void writeExports(const std::string& summary_text);
+
+ private:
+  void requireSame(const std::map<std::string, std::string>& found,
+                   const std::map<std::string, std::string>& expected) const;
+
+  std::string folder_;
+  ResultsStore store_;
+  std::map<std::string, std::string> info_;
+  Secret secret_;
+};
+
+}  // namespace pcrb

@@ -1,0 +1,44 @@
+#include "server/tf_lookup.hpp"
+
+#include <chrono>
+#include <thread>
+
+namespace pcrb {
+
+namespace {
+
+constexpr auto kPatience = std::chrono::milliseconds(500);
+constexpr auto kPeriod = std::chrono::milliseconds(5);
+constexpr int kMaxWaiting = 2;
+
+}  // namespace
+
+TfLookup::TfLookup(std::string target_frame, double keep)
+    : target_frame_(std::move(target_frame)), buffer_(ros::Duration(keep)), listener_(buffer_) {}
+
+bool TfLookup::waitFor(const std::string& frame, const ros::Time& stamp) {
+  // On the steady clock: tf2's own wait follows ROS time, which may stand still.
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  const bool may_wait = waiting_.fetch_add(1) < kMaxWaiting;
+  bool is_found = buffer_.canTransform(target_frame_, frame, stamp);
+  while (!is_found && may_wait && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(kPeriod);
+    is_found = buffer_.canTransform(target_frame_, frame, stamp);
+  }
+  --waiting_;
+  return is_found;
+}
+
+std::optional<Transform> TfLookup::operator()(const std::string& frame, const ros::Time& stamp) {
+  if (!waitFor(frame, stamp)) return std::nullopt;
+  try {
+    const auto found = buffer_.lookupTransform(target_frame_, frame, stamp).transform;
+    return makeTransform(
+        {found.translation.x, found.translation.y, found.translation.z},
+        Eigen::Quaterniond(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z));
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;  // gone between the check and the look-up
+  }
+}
+
+}  // namespace pcrb

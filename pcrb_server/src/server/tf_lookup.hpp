@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ros/duration.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include "pcrb_core/transform.hpp"
+
+namespace pcrb {
+
+/// Looks frames up for replies that come in another frame than the target's.
+class TfLookup {
+ public:
+  /// @param keep  s of transforms to remember: a reply refers to its problem's stamp.
+  TfLookup(std::string target_frame, double keep);
+
+  /// T_target_frame at `stamp`, waiting up to 0.5 s for it. A few callers may wait at a time;
+  /// further ones are answered from what is known, so that a flood cannot occupy every service
+  /// thread.
+  std::optional<Transform> operator()(const std::string& frame, const ros::Time& stamp);
+
+ private:
+  bool waitFor(const std::string& frame, const ros::Time& stamp);
+
+  std::string target_frame_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  std::atomic<int> waiting_{0};
+};
+
+}  // namespace pcrb

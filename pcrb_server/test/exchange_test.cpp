@@ -1,0 +1,244 @@
+#include "server/exchange.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace pcrb {
+namespace {
+
+using Request = pcrb_msgs::SubmitPose::Request;
+using Response = pcrb_msgs::SubmitPose::Response;
+using Wait = Exchange::Wait;
+
+constexpr std::chrono::duration<double> kLong(60.0);
+constexpr std::chrono::duration<double> kShort(0.02);
+const ros::Time kStamp(1000, 5);
+
+Request validReply(const std::string& id = "a") {
+  Request request;
+  request.problem_id = id;
+  request.pose.header.frame_id = "map";
+  request.pose.pose.position.x = 1.5;
+  request.pose.pose.orientation.w = 1.0;
+  request.solver_time = std::nan("");
+  return request;
+}
+
+std::optional<Transform> noTransform(const std::string&, const ros::Time&) { return std::nullopt; }
+
+class ExchangeTest : public testing::Test {
+ protected:
+  int submit(const Request& request) {
+    Response response;
+    exchange_.submit(request, response);
+    EXPECT_EQ(response.accepted != 0, response.code == Response::OK);
+    EXPECT_EQ(response.message.empty(), response.code == Response::OK) << response.message;
+    return response.code;
+  }
+
+  bool ready(const std::string& id) {
+    pcrb_msgs::Ready::Request request;
+    pcrb_msgs::Ready::Response response;
+    request.problem_id = id;
+    exchange_.ready("/node", request, response);
+    return response.accepted != 0;
+  }
+
+  void handOut(const std::string& id, std::chrono::duration<double> limit = kLong) {
+    exchange_.announce(id, kStamp);
+    exchange_.handOut(limit);
+  }
+
+  Exchange exchange_{"map", noTransform};
+  Reply reply_;
+};
+
+TEST_F(ExchangeTest, TakesTheFirstValidReply) {
+  handOut("a");
+  EXPECT_EQ(submit(validReply()), Response::OK);
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kDone);
+  EXPECT_EQ(reply_.outcome, Outcome::kReplied);
+  EXPECT_EQ(reply_.position.x(), 1.5);
+  EXPECT_GE(reply_.runtime.value(), 0.0);
+  EXPECT_FALSE(reply_.solver_time.has_value());
+  EXPECT_EQ(reply_.rejected, 0u);
+}
+
+TEST_F(ExchangeTest, AReplyFromAnotherThreadEndsTheWait) {
+  handOut("a");
+  std::thread client([this] { submit(validReply()); });
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kDone);
+  client.join();
+}
+
+TEST_F(ExchangeTest, RejectsAReplyToAnUnknownProblem) {
+  handOut("a");
+  EXPECT_EQ(submit(validReply("b")), Response::UNKNOWN_PROBLEM);
+  EXPECT_EQ(submit(validReply("")), Response::UNKNOWN_PROBLEM);
+}
+
+TEST_F(ExchangeTest, RejectsAReplyBeforeTheSourceIsHandedOut) {
+  exchange_.announce("a", kStamp);
+  EXPECT_EQ(submit(validReply()), Response::NOT_RUNNING);
+}
+
+TEST_F(ExchangeTest, RejectsASecondReplyAsDuplicateAlsoAfterTheEnd) {
+  handOut("a");
+  EXPECT_EQ(submit(validReply()), Response::OK);
+  EXPECT_EQ(submit(validReply()), Response::DUPLICATE);
+  exchange_.waitReply(reply_);
+  EXPECT_EQ(submit(validReply()), Response::DUPLICATE);
+}
+
+TEST_F(ExchangeTest, RejectsAReplyAfterTheLimitAsLate) {
+  handOut("a", std::chrono::duration<double>(0.0));
+  EXPECT_EQ(submit(validReply()), Response::LATE);
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kLimit);
+  EXPECT_EQ(submit(validReply()), Response::LATE);
+}
+
+TEST_F(ExchangeTest, RejectsNumbersThatAreNotFinite) {
+  handOut("a");
+  Request request = validReply();
+  request.pose.pose.position.y = std::nan("");
+  EXPECT_EQ(submit(request), Response::NOT_FINITE);
+  request = validReply();
+  request.pose.pose.orientation.z = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(submit(request), Response::NOT_FINITE);
+  request = validReply();
+  request.covariance[35] = std::nan("");
+  request.has_covariance = 1;
+  EXPECT_EQ(submit(request), Response::NOT_FINITE);
+  request.has_covariance = 0;
+  EXPECT_EQ(submit(request), Response::OK);
+}
+
+TEST_F(ExchangeTest, RejectsAStatusThatItDoesNotKnow) {
+  handOut("a");
+  Request request = validReply();
+  request.status = 3;
+  EXPECT_EQ(submit(request), Response::NOT_FINITE);
+}
+
+TEST_F(ExchangeTest, RejectsQuaternionsThatAreNotUnitAndNormalisesTheRest) {
+  handOut("a");
+  Request request = validReply();
+  request.pose.pose.orientation.w = 1.0011;
+  EXPECT_EQ(submit(request), Response::NOT_UNIT_QUATERNION);
+  request.pose.pose.orientation.w = 0.0;
+  EXPECT_EQ(submit(request), Response::NOT_UNIT_QUATERNION);
+  request.pose.pose.orientation.w = 1.0009;
+  EXPECT_EQ(submit(request), Response::OK);
+  exchange_.waitReply(reply_);
+  EXPECT_EQ(reply_.orientation.w(), 1.0);
+}
+
+TEST_F(ExchangeTest, ARejectedReplyDoesNotEndTheProblem) {
+  handOut("a");
+  Request request = validReply();
+  request.pose.pose.orientation.w = 2.0;
+  submit(request);
+  EXPECT_EQ(submit(validReply()), Response::OK);
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kDone);
+  EXPECT_EQ(reply_.rejected, 1u);
+}
+
+TEST_F(ExchangeTest, OnlyRejectedRepliesEndAsRejectedWithTheLastReason) {
+  handOut("a", kShort);
+  Request request = validReply();
+  request.pose.pose.orientation.w = 2.0;
+  submit(request);
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kLimit);
+  EXPECT_EQ(reply_.outcome, Outcome::kRejected);
+  EXPECT_NE(reply_.reason.find("norm"), std::string::npos);
+}
+
+TEST_F(ExchangeTest, RepliesToOtherProblemsDoNotCountAsRejectedOnes) {
+  handOut("a", kShort);
+  submit(validReply("b"));
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kLimit);
+  EXPECT_EQ(reply_.outcome, Outcome::kTimedOut);
+}
+
+TEST_F(ExchangeTest, TheClientMayGiveUpAndSaysWhy) {
+  handOut("a");
+  Request request = validReply();
+  request.pose.pose.orientation.w = 0.0;  // no pose is looked at
+  request.status = Request::FAILED;
+  request.reason = "no features";
+  EXPECT_EQ(submit(request), Response::OK);
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kDone);
+  EXPECT_EQ(reply_.outcome, Outcome::kFailed);
+  EXPECT_EQ(reply_.reason, "no features");
+}
+
+TEST_F(ExchangeTest, ReadyIsAcceptedForTheAnnouncedProblemOnly) {
+  EXPECT_FALSE(ready("a"));
+  exchange_.announce("a", kStamp);
+  EXPECT_FALSE(ready("b"));
+  EXPECT_TRUE(ready("a"));
+  EXPECT_EQ(exchange_.waitReady(kLong), Wait::kDone);
+  EXPECT_EQ(exchange_.client(), "/node");
+  exchange_.handOut(kLong);
+  EXPECT_FALSE(ready("a"));
+}
+
+TEST_F(ExchangeTest, SkippingEndsTheProblemAndNotTheNextOne) {
+  handOut("a");
+  exchange_.skip();
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kSkipped);
+  EXPECT_EQ(reply_.outcome, Outcome::kSkipped);
+  handOut("b", kShort);
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kLimit);
+}
+
+TEST_F(ExchangeTest, StoppingEndsEveryWait) {
+  handOut("a");
+  exchange_.stop();
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kStopped);
+  exchange_.announce("b", kStamp);
+  EXPECT_EQ(exchange_.waitReady(kLong), Wait::kStopped);
+}
+
+TEST_F(ExchangeTest, TakesNothingAfterTheRun) {
+  exchange_.endRun();
+  EXPECT_EQ(submit(validReply()), Response::NOT_RUNNING);
+  EXPECT_FALSE(ready("a"));
+}
+
+TEST_F(ExchangeTest, RejectsAFrameThatTfDoesNotConnect) {
+  handOut("a");
+  Request request = validReply();
+  request.pose.header.frame_id = "elsewhere";
+  EXPECT_EQ(submit(request), Response::NO_TRANSFORM);
+  request.pose.header.frame_id = "/map";
+  EXPECT_EQ(submit(request), Response::OK);
+}
+
+TEST(Exchange, ComposesARepliesPoseWithTheTransformOfItsFrame) {
+  ros::Time asked;
+  Exchange exchange("map", [&](const std::string& frame, const ros::Time& stamp) {
+    EXPECT_EQ(frame, "odom");
+    asked = stamp;
+    const Eigen::Quaterniond quarter(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()));
+    return std::make_optional(makeTransform({10, 0, 0}, quarter));
+  });
+  exchange.announce("a", kStamp);
+  exchange.handOut(kLong);
+  Request request = validReply();
+  request.pose.header.frame_id = "odom";
+  Response response;
+  exchange.submit(request, response);
+  EXPECT_EQ(response.code, Response::OK);
+  EXPECT_EQ(asked, kStamp);
+  Reply reply;
+  exchange.waitReply(reply);
+  EXPECT_LT((reply.position - Eigen::Vector3d(10, 1.5, 0)).norm(), 1e-12);
+  EXPECT_NEAR(reply.orientation.z(), std::sqrt(0.5), 1e-12);
+}
+
+}  // namespace
+}  // namespace pcrb
