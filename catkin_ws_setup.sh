@@ -20,7 +20,7 @@ needed_debian_packages=(
   catkin ccache cmake g++ make
   libros-rosgraph-msgs-dev librosbag-dev librostest-dev libstd-srvs-dev libtf2-dev libtf2-ros-dev
   libvisualization-msgs-dev python3-rosnode python3-rospy python3-rostest ros-base-dev
-  libarchive-dev libbenchmark-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
+  pkg-config libarchive-dev libbenchmark-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
   libnanoflann-dev libpcl-dev libsodium-dev libsqlite3-dev libyaml-cpp-dev pkg-config
 )
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
