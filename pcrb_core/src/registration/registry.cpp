@@ -12,12 +12,17 @@
 namespace pcrb {
 namespace {
 
-// A name may come twice, from two libraries: that is reported to whoever asks for it, since
-// nothing can be thrown while a library is being loaded.
+struct Entry {
+  std::string name;
+  RegistrationFactory factory;
+};
+
+// Two libraries may bring one name: that is reported to whoever loads the second or asks for the
+// name, since nothing can be thrown while a library is being loaded.
 struct Registry {
   std::mutex mutex;
-  std::multimap<std::string, RegistrationFactory> factories;
-  std::map<void*, std::vector<std::string>> libraries;  // by handle, never closed
+  std::vector<Entry> entries;                           // in the order of registration
+  std::map<void*, std::vector<std::string>> libraries;  // by handle
 };
 
 Registry& registry() {
@@ -25,10 +30,10 @@ Registry& registry() {
   return instance;
 }
 
-std::vector<std::string> allNames() {
-  const std::lock_guard<std::mutex> lock(registry().mutex);
+std::vector<std::string> sortedNames(const std::vector<Entry>& entries, std::size_t first) {
   std::vector<std::string> names;
-  for (const auto& [name, factory] : registry().factories) names.push_back(name);
+  for (std::size_t i = first; i < entries.size(); ++i) names.push_back(entries[i].name);
+  std::sort(names.begin(), names.end());
   return names;
 }
 
@@ -42,8 +47,9 @@ RegistrationFactory findFactory(const std::string& method) {
   std::vector<RegistrationFactory> found;
   {
     const std::lock_guard<std::mutex> lock(registry().mutex);
-    const auto [begin, end] = registry().factories.equal_range(method);
-    for (auto it = begin; it != end; ++it) found.push_back(it->second);
+    for (const auto& entry : registry().entries) {
+      if (entry.name == method) found.push_back(entry.factory);
+    }
   }
   if (found.size() == 1) return found.front();
   if (found.empty()) {
@@ -54,11 +60,30 @@ RegistrationFactory findFactory(const std::string& method) {
                          std::to_string(found.size()) + " times, expected one method of a name");
 }
 
+/// Names of a library's methods, which are those from `first` on; takes them back if one is taken.
+std::vector<std::string> acceptLibrary(const std::string& path, std::size_t first) {
+  auto& entries = registry().entries;
+  const std::vector<std::string> all = sortedNames(entries, 0);
+  const auto twice = std::adjacent_find(all.begin(), all.end());
+  if (twice != all.end()) {
+    const std::string name = *twice;
+    entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(first), entries.end());
+    throw InvalidParameter("plugin: " + path + " registers " + inQuotes(name) +
+                           ", expected a name that is not taken");
+  }
+  const std::vector<std::string> names = sortedNames(entries, first);
+  if (names.empty()) {
+    throw InvalidParameter("plugin: " + path +
+                           " registers no method, expected PCRB_REGISTER_METHOD in it");
+  }
+  return names;
+}
+
 }  // namespace
 
 bool registerMethod(const std::string& name, RegistrationFactory factory) {
   const std::lock_guard<std::mutex> lock(registry().mutex);
-  registry().factories.emplace(name, std::move(factory));
+  registry().entries.push_back({name, std::move(factory)});
   return true;
 }
 
@@ -72,7 +97,8 @@ std::unique_ptr<Registration> makeRegistration(const std::string& method,
 }
 
 std::vector<std::string> registrationMethods() {
-  std::vector<std::string> names = allNames();
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  std::vector<std::string> names = sortedNames(registry().entries, 0);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
@@ -84,24 +110,26 @@ Parameters registrationDefaults(const std::string& method) {
 }
 
 std::vector<std::string> loadRegistrationLibrary(const std::string& path) {
-  const std::vector<std::string> before = allNames();
+  // The library's own registration takes the registry's mutex: it cannot be held meanwhile.
+  static std::mutex loading;
+  const std::lock_guard<std::mutex> one_at_a_time(loading);
+  const std::size_t first = [] {
+    const std::lock_guard<std::mutex> lock(registry().mutex);
+    return registry().entries.size();
+  }();
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw InvalidParameter("plugin: cannot load " + std::string(dlerror()));
-  const std::vector<std::string> after = allNames();
 
-  std::vector<std::string> added;
-  std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
-                      std::back_inserter(added));
-  {
-    const std::lock_guard<std::mutex> lock(registry().mutex);
-    added = registry().libraries.emplace(handle, added).first->second;
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  const auto known = registry().libraries.find(handle);
+  if (known != registry().libraries.end()) return known->second;
+  try {
+    return registry().libraries[handle] = acceptLibrary(path, first);
+  } catch (const InvalidParameter&) {
+    registry().libraries.erase(handle);
+    dlclose(handle);
+    throw;
   }
-  if (added.empty()) {
-    throw InvalidParameter("plugin: " + path +
-                           " registers no method, expected PCRB_REGISTER_METHOD in it");
-  }
-  for (const auto& name : added) findFactory(name);
-  return added;
 }
 
 }  // namespace pcrb

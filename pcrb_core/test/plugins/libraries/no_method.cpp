@@ -1,0 +1,3 @@
+// A library that forgot the line that registers its method.
+
+extern "C" int pcrbTestNothing() { return 0; }

@@ -1,0 +1,36 @@
+// A method of a user's own, as it stands in a package of theirs.
+
+#include "pcrb_core/registration/registry.hpp"
+
+namespace {
+
+/// Puts the source's centroid on the target's and adds `lift`.
+class CentroidsTogether : public pcrb::Registration {
+ public:
+  explicit CentroidsTogether(pcrb::ParameterReader& reader)
+      : lift_(reader.number("lift", 0.0, 0.0, 10.0)) {}  // m
+
+ protected:
+  void prepareTarget(const pcrb::PointCloud& target) override {
+    target_centroid_ = pcrb::centroid(target);
+  }
+
+  pcrb::RegistrationResult alignSource(const pcrb::PointCloud& source,
+                                       const pcrb::Transform& guess) override {
+    pcrb::RegistrationResult result;
+    result.T_target_source = guess;
+    result.T_target_source.pretranslate(target_centroid_ - guess * pcrb::centroid(source) +
+                                        lift_ * Eigen::Vector3d::UnitZ());
+    result.converged = true;
+    result.iterations = 1;
+    return result;
+  }
+
+ private:
+  double lift_;
+  Eigen::Vector3d target_centroid_ = Eigen::Vector3d::Zero();
+};
+
+PCRB_REGISTER_METHOD("centroids_together", CentroidsTogether)
+
+}  // namespace

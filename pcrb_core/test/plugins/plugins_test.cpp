@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "pcrb_core/registration/registry.hpp"
+#include "support/scenes.hpp"
+
+namespace pcrb {
+namespace {
+
+std::string refusalOf(const std::string& path) {
+  try {
+    loadRegistrationLibrary(path);
+  } catch (const InvalidParameter& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(RegistrationLibrary, MakesAUsersMethodKnownByItsName) {
+  const std::vector<std::string> expected{"centroids_together"};
+  EXPECT_THROW(makeRegistration("centroids_together", {}), InvalidParameter);
+  EXPECT_EQ(loadRegistrationLibrary(PCRB_TEST_USER_METHOD), expected);
+  EXPECT_EQ(loadRegistrationLibrary(PCRB_TEST_USER_METHOD), expected) << "a second time";
+  const auto names = registrationMethods();
+  EXPECT_EQ(std::count(names.begin(), names.end(), "centroids_together"), 1);
+
+  const auto method = makeRegistration("centroids_together", {{"lift", "0.5"}});
+  const Transform P(Eigen::Translation3d(1.0, 2.0, 3.0));
+  method->setTarget(pcrb_test::shared(pcrb_test::hall(1)));
+  const auto result =
+      method->align(pcrb_test::transformed(pcrb_test::hall(1), P), Transform::Identity());
+  EXPECT_LT((result.T_target_source.translation() - Eigen::Vector3d(-1.0, -2.0, -2.5)).norm(),
+            1e-5);
+  EXPECT_GT(result.solver_time, 0.0);
+}
+
+TEST(RegistrationLibrary, HasItsParametersAndCloudsCheckedLikeAnyMethod) {
+  loadRegistrationLibrary(PCRB_TEST_USER_METHOD);
+  EXPECT_THROW(makeRegistration("centroids_together", {{"lift", "11"}}), InvalidParameter);
+  EXPECT_THROW(makeRegistration("centroids_together", {{"lfit", "1"}}), InvalidParameter);
+  const auto method = makeRegistration("centroids_together", {});
+  EXPECT_THROW(method->align(pcrb_test::hall(1), Transform::Identity()), InvalidProblem);
+  EXPECT_THROW(method->setTarget(pcrb_test::shared({})), InvalidProblem);
+}
+
+TEST(RegistrationLibrary, IsRefusedWhereItCannotBeLoaded) {
+  const std::string message = refusalOf("/nowhere/libmine.so");
+  EXPECT_NE(message.find("/nowhere/libmine.so"), std::string::npos) << message;
+}
+
+TEST(RegistrationLibrary, IsRefusedWhereItRegistersNothing) {
+  const std::string message = refusalOf(PCRB_TEST_NO_METHOD);
+  EXPECT_NE(message.find("registers no method"), std::string::npos) << message;
+}
+
+TEST(RegistrationLibrary, IsRefusedWhereANameIsTakenAndLeavesThatMethodAsItWas) {
+  const std::string message = refusalOf(PCRB_TEST_TAKEN_NAME);
+  EXPECT_NE(message.find("'icp'"), std::string::npos) << message;
+  EXPECT_EQ(registrationDefaults("icp").count("max_iterations"), 1U);
+}
+
+}  // namespace
+}  // namespace pcrb
