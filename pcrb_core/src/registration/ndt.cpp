@@ -1,0 +1,160 @@
+// NDT as the paper runs it, on PCL's NormalDistributionsTransform. PCL's cells, derivatives and
+// line search are used as they are; the outer loop is PCL's too, written again here because its
+// test for convergence takes the translation at the frame's origin, not at the source's centroid.
+
+#include <pcl/common/transforms.h>
+#include <pcl/console/print.h>
+#include <pcl/registration/ndt.h>
+
+#include <cmath>
+#include <memory>
+
+#include "pcrb_core/registration/registry.hpp"
+#include "registration/pcl_correspondences.hpp"
+
+namespace pcrb {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr std::size_t kMinPoints = 10;
+
+struct NdtParameters {
+  explicit NdtParameters(ParameterReader& reader)
+      : voxel_leaf(reader.positive("voxel_leaf", 0.2)),
+        filter_source(reader.boolean("filter_source", true)),
+        max_step(reader.positive("max_step", 0.1)),
+        outlier_ratio(reader.number("outlier_ratio", 0.55, 0.01, 0.99)),
+        min_points_per_cell(reader.integer("min_points_per_cell", 6, 3)),
+        max_iterations(reader.integer("max_iterations", 35, 1)),
+        translation_epsilon(reader.number("translation_epsilon", 0.01, 0.0)) {
+    reader.threads();  // accepted as with every method; PCL's NDT runs on one core
+  }
+
+  double voxel_leaf;           ///< m, edge of the target's cells
+  bool filter_source;          ///< through a voxel grid of the same leaf
+  double max_step;             ///< of the line search: norm of (m, rad) at most
+  double outlier_ratio;        ///< part of the points that the mixture takes for outliers
+  int min_points_per_cell;     ///< cells with fewer have no distribution
+  int max_iterations;          ///< then the method stops unconverged
+  double translation_epsilon;  ///< m, at the source's centroid; a smaller step is convergence
+};
+
+/// PCL prints warnings about single cells; the library prints nothing.
+class QuietPcl {
+ public:
+  QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
+  ~QuietPcl() { pcl::console::setVerbosityLevel(level_); }
+  QuietPcl(const QuietPcl&) = delete;
+  QuietPcl& operator=(const QuietPcl&) = delete;
+
+ private:
+  pcl::console::VERBOSITY_LEVEL level_ = pcl::console::getVerbosityLevel();
+};
+
+class PclNdt : public pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXYZ, double> {
+ public:
+  PclNdt(const NdtParameters& parameters, const Points& target) : parameters_(parameters) {
+    const QuietPcl quiet;
+    setResolution(static_cast<float>(parameters.voxel_leaf));
+    setMinPointPerVoxel(static_cast<unsigned int>(parameters.min_points_per_cell));
+    setOulierRatio(parameters.outlier_ratio);
+    setInputTarget(toPcl(target));
+    if (target_cells_.getCentroids() == nullptr || target_cells_.getCentroids()->empty()) {
+      throw InvalidProblem("target: found no cell of " + std::to_string(parameters.voxel_leaf) +
+                           " m with " + std::to_string(parameters.min_points_per_cell) +
+                           " points (or more cells than PCL can number), expected at least one");
+    }
+  }
+
+  RegistrationResult run(const Points& source, const Transform& guess) {
+    setInputSource(toPcl(source));
+    source_centroid_ = meanOf(source);
+    result_ = {};
+    PclCloud aligned;
+    align(aligned, guess.matrix());
+    result_.T_target_source = Transform(final_transformation_);
+    result_.T_target_source.linear() = nearestRotation(result_.T_target_source.linear());
+    return result_;
+  }
+
+ protected:
+  /// Algorithm 2 of Magnusson, The three-dimensional normal-distributions transform, 2009.
+  void computeTransformation(PclCloud& moved, const Eigen::Matrix4d& guess) override {
+    prepareMixture();
+    final_transformation_ = guess;
+    pcl::transformPointCloud(*input_, moved, guess);
+    const Transform start(guess);
+    Vector6d pose;
+    pose << start.translation(), start.rotation().eulerAngles(0, 1, 2);
+    Vector6d gradient;
+    Matrix6d hessian;
+    double score = computeDerivatives(gradient, hessian, moved, pose);
+    result_.reason = "stopped at the limit of iterations";
+    while (result_.iterations < parameters_.max_iterations && !result_.converged) {
+      const Eigen::Vector3d before = centroid();
+      const Eigen::JacobiSVD<Matrix6d> svd(hessian, Eigen::ComputeFullU | Eigen::ComputeFullV);
+      Vector6d step = svd.solve(-gradient);
+      const double length = step.norm();
+      if (!(length > 0.0) || !std::isfinite(length)) {
+        result_.reason = "no cell of the target is near the source";
+        return;
+      }
+      step /= length;
+      pose += step * computeStepLengthMT(pose, step, length, parameters_.max_step,
+                                         parameters_.translation_epsilon / 2.0, score, gradient,
+                                         hessian, moved);
+      ++result_.iterations;
+      result_.converged = (centroid() - before).norm() < parameters_.translation_epsilon;
+    }
+    if (result_.converged) result_.reason.clear();
+  }
+
+ private:
+  Eigen::Vector3d centroid() const { return Transform(final_transformation_) * source_centroid_; }
+
+  /// Equation 6.8 of Magnusson 2009.
+  void prepareMixture() {
+    const double c1 = 10.0 * (1.0 - outlier_ratio_);
+    const double c2 = outlier_ratio_ / std::pow(resolution_, 3);
+    const double d3 = -std::log(c2);
+    gauss_d1_ = -std::log(c1 + c2) - d3;
+    gauss_d2_ = -2.0 * std::log((-std::log(c1 * std::exp(-0.5) + c2) - d3) / gauss_d1_);
+    point_jacobian_.setZero();
+    point_jacobian_.block<3, 3>(0, 0).setIdentity();
+    point_hessian_.setZero();
+  }
+
+  const NdtParameters& parameters_;
+  Eigen::Vector3d source_centroid_ = Eigen::Vector3d::Zero();
+  RegistrationResult result_;
+};
+
+class Ndt : public Registration {
+ public:
+  explicit Ndt(ParameterReader& reader) : parameters_(reader) {}
+
+ protected:
+  void prepareTarget(const PointCloud& target) override {
+    requirePoints(target.points, kMinPoints, "target");
+    ndt_ = std::make_unique<PclNdt>(parameters_, target.points);
+  }
+
+  RegistrationResult alignSource(const PointCloud& source, const Transform& guess) override {
+    const Points points = parameters_.filter_source
+                              ? voxelGrid(source.points, parameters_.voxel_leaf)
+                              : source.points;
+    requirePoints(points, kMinPoints, "source");
+    return ndt_->run(points, guess);
+  }
+
+ private:
+  NdtParameters parameters_;
+  std::unique_ptr<PclNdt> ndt_;
+};
+
+PCRB_REGISTER_METHOD("ndt", Ndt)
+
+}  // namespace
+}  // namespace pcrb
