@@ -8,6 +8,7 @@
 #include <pcrb_msgs/Ready.h>
 #include <pcrb_msgs/SubmitPose.h>
 #include <pcrb_msgs/Summary.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Empty.h>
@@ -128,9 +129,10 @@ int answerAtOnce() {
         submit.call(service);
       },
       ros::VoidConstPtr(), kNoDelay);
+  bool is_over = false;
   const auto end = node.subscribe<pcrb_msgs::Summary>(
-      topics::kSummary, 1, [](const pcrb_msgs::SummaryConstPtr&) { ros::shutdown(); });
-  ros::spin();
+      topics::kSummary, 1, [&](const pcrb_msgs::SummaryConstPtr&) { is_over = true; });
+  while (ros::ok() && !is_over) ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.1));
   periods.print();
   return 0;
 }

@@ -54,11 +54,9 @@ class FieldReader {
 
 }  // namespace
 
-sensor_msgs::PointCloud2 toMessage(const PointCloud& cloud, const Transform& T,
-                                   const std_msgs::Header& header) {
+sensor_msgs::PointCloud2 layoutOf(const PointCloud& cloud) {
   const bool has_intensity = !cloud.intensity.empty();
   sensor_msgs::PointCloud2 message;
-  message.header = header;
   message.height = 1;
   message.width = static_cast<std::uint32_t>(cloud.size());
   message.fields = {floatField("x", 0), floatField("y", 4), floatField("z", 8)};
@@ -67,15 +65,23 @@ sensor_msgs::PointCloud2 toMessage(const PointCloud& cloud, const Transform& T,
   message.point_step = has_intensity ? 16 : 12;
   message.row_step = message.point_step * message.width;
   message.is_dense = 1;
-  message.data.resize(message.row_step);
-  std::uint8_t* data = message.data.data();
-  const Eigen::Matrix3d R = T.linear();
-  const Eigen::Vector3d t = T.translation();
-  for (std::size_t i = 0; i < cloud.size(); ++i, data += message.point_step) {
-    const Eigen::Vector3f moved = (R * cloud.points[i].cast<double>() + t).cast<float>();
-    std::memcpy(data, moved.data(), 12);
-    if (has_intensity) std::memcpy(data + 12, &cloud.intensity[i], 4);
+  return message;
+}
+
+void writePoints(const PointCloud& cloud, const Transform& T, std::uint32_t point_step,
+                 std::uint8_t* data) {
+  transformPoints(cloud, T, data, point_step);
+  for (std::size_t i = 0; i < cloud.intensity.size(); ++i) {
+    std::memcpy(data + point_step * i + 12, &cloud.intensity[i], 4);
   }
+}
+
+sensor_msgs::PointCloud2 toMessage(const PointCloud& cloud, const Transform& T,
+                                   const std_msgs::Header& header) {
+  sensor_msgs::PointCloud2 message = layoutOf(cloud);
+  message.header = header;
+  message.data.resize(message.row_step);
+  writePoints(cloud, T, message.point_step, message.data.data());
   return message;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "pcrb_core/transform.hpp"
@@ -57,5 +58,12 @@ Eigen::Vector3d centroid(const PointCloud& cloud);
 ///
 /// @throws InvalidProblem  if the cloud is empty.
 Eigen::Vector3d centroid(const DatasetCloud& cloud);
+
+/// Writes T · p of every point as three floats, computed in double, each point `stride` bytes after
+/// the one before it; the same bits on every processor.
+///
+/// @param out  room for size() · stride bytes.
+void transformPoints(const PointCloud& cloud, const Transform& T, std::uint8_t* out,
+                     std::size_t stride);
 
 }  // namespace pcrb

@@ -19,6 +19,13 @@ namespace pcrb {
 sensor_msgs::PointCloud2 toMessage(const PointCloud& cloud, const Transform& T,
                                    const std_msgs::Header& header);
 
+/// The same without data and header: fields and sizes.
+sensor_msgs::PointCloud2 layoutOf(const PointCloud& cloud);
+
+/// The data that belongs to a layout.
+void writePoints(const PointCloud& cloud, const Transform& T, std::uint32_t point_step,
+                 std::uint8_t* data);
+
 /// The points of a message; fields are found by name, x y z may be FLOAT32 or FLOAT64. Points with
 /// a non-finite coordinate are left out. The local origin is zero.
 ///

@@ -151,6 +151,7 @@ bool BenchmarkServer::serve(PreparedProblem prepared) {
   publications_.handOut(prepared, announcement);
   Reply reply;
   if (exchange_.waitReply(reply) == Exchange::Wait::kStopped) return false;
+  loader_.prepareAnother();
   const Result result = score(prepared, reply);
   record_.add(result);
   ++done_;
@@ -193,22 +194,22 @@ Result BenchmarkServer::score(const PreparedProblem& prepared, const Reply& repl
   result.overlap = planned.problem.overlap;
   result.outcome = reply.outcome;
   result.reason = reply.reason;
-  result.initial_misalignment = metric.evaluate(prepared.P).error;
-  Transform T_residual = prepared.P;  // of the initial guess: what a problem without a reply gets
+  result.initial_misalignment = prepared.initial.error;
+  PoseError error = prepared.initial;  // of the initial guess: what a problem without a reply gets
   if (reply.outcome == Outcome::kReplied) {
     result.position = reply.position;
     result.orientation = reply.orientation;
     result.covariance = reply.covariance;
-    T_residual = prepared.presentation.residual(makeTransform(reply.position, reply.orientation));
+    error = metric.evaluate(
+        prepared.presentation.residual(makeTransform(reply.position, reply.orientation)));
   }
-  const PoseError error = metric.evaluate(T_residual);
   result.error = error.error;
   result.rotation_error = error.rotation_error;
   result.translation_error = error.translation_error;
   result.runtime = reply.runtime;
   result.solver_time = reply.solver_time;
   result.scans_used = reply.scans_used;
-  result.target_changed = prepared.target_message != nullptr;
+  result.target_changed = prepared.target_changed;
   result.replies_rejected = reply.rejected;
   result.finished = secondsSinceEpoch();
   return result;

@@ -129,6 +129,10 @@ Exchange::Code Exchange::check(const Request& request, Clock::time_point arrival
     message = ended->second ? "the problem has been answered already" : "the problem has ended";
     return ended->second ? Response::DUPLICATE : Response::LATE;
   }
+  if (phase_ == Phase::kRunOver) {
+    message = "the run is over";
+    return Response::NOT_RUNNING;
+  }
   if (!inFlight(request.problem_id)) {
     message =
         "found problem_id `" + request.problem_id + "`, expected that of an announced problem";

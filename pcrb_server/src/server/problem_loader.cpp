@@ -7,11 +7,12 @@
 #include "pcrb_core/io/file_hash.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
-#include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
 
 namespace {
+
+constexpr std::size_t kAhead = 2;  // problems prepared before they are asked for
 
 CloudCache::Key cacheKey(const std::string& path, const Eigen::Vector3d& origin) {
   return {path, {origin.x(), origin.y(), origin.z()}};
@@ -24,10 +25,16 @@ ProblemLoader::ProblemLoader(const ServerParameters& parameters, const Secret& s
     : parameters_(parameters),
       secret_(secret),
       problems_(problems),
-      cache_(parameters.cache_bytes) {}
+      cache_(parameters.cache_bytes),
+      allowed_(kAhead) {}
 
 ProblemLoader::~ProblemLoader() {
-  if (next_.valid()) next_.wait();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_over_ = true;
+  }
+  changed_.notify_all();
+  if (worker_.joinable()) worker_.join();
 }
 
 void ProblemLoader::checkFrames() {
@@ -39,16 +46,32 @@ void ProblemLoader::checkFrames() {
 }
 
 PreparedProblem ProblemLoader::next() {
-  if (!next_.valid()) prefetch();
-  PreparedProblem prepared = next_.get();
-  prefetch();
-  return prepared;
+  if (!worker_.joinable()) worker_ = std::thread([this] { work(); });
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return !prepared_.empty(); });
+  std::future<PreparedProblem> next = std::move(prepared_.front());
+  prepared_.pop_front();
+  return next.get();
 }
 
-void ProblemLoader::prefetch() {
-  if (position_ == problems_.size()) return;
-  next_ = std::async(std::launch::async, [this, i = position_] { return prepare(i); });
-  ++position_;
+void ProblemLoader::prepareAnother() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++allowed_;
+  changed_.notify_all();
+}
+
+void ProblemLoader::work() {
+  for (std::size_t i = 0; i < problems_.size(); ++i) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return is_over_ || i < allowed_; });
+    if (is_over_) return;
+    lock.unlock();
+    std::packaged_task<PreparedProblem()> task([&] { return prepare(i); });
+    task();
+    lock.lock();
+    prepared_.push_back(task.get_future());
+    changed_.notify_all();
+  }
 }
 
 std::shared_ptr<LoadedCloud> ProblemLoader::makeLoaded(const std::string& path,
@@ -106,6 +129,7 @@ void ProblemLoader::pose(PreparedProblem& prepared, const std::string& previous_
   const Eigen::Vector3d centroid = source->metric->centroid();
   checkFrame(planned.P, centroid + origin, planned.data_set->bounds(planned.key.kind));
   prepared.P = inLocalFrame(planned.P, origin);
+  prepared.initial = source->metric->evaluate(prepared.P);
   if (parameters_.presentation == PresentationKind::kRegistration) {
     prepared.presentation = presentForRegistration(prepared.P);
   } else {
@@ -113,12 +137,12 @@ void ProblemLoader::pose(PreparedProblem& prepared, const std::string& previous_
                                          source->viewpoint, centroid, parameters_.upright);
     prepared.presentation = presentForLocalization(prepared.P, V);
   }
-  const std_msgs::Header header;
-  prepared.source_message = boost::make_shared<sensor_msgs::PointCloud2>(
-      toMessage(source->cloud, prepared.presentation.applied, header));
-  if (planned.target_path != previous_target) {
-    prepared.target_message = boost::make_shared<sensor_msgs::PointCloud2>(
-        toMessage(target->cloud, Transform::Identity(), header));
+  prepared.source_message = serializer_.serialize(source->cloud, prepared.presentation.applied,
+                                                  parameters_.sourceFrame());
+  prepared.target_changed = planned.target_path != previous_target;
+  if (prepared.target_changed) {
+    prepared.target_message =
+        serializer_.serialize(target->cloud, Transform::Identity(), parameters_.map_frame);
   }
   prepared.target = target;
   prepared.source = source;

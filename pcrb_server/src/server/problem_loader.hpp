@@ -1,12 +1,13 @@
 #pragma once
 
-#include <sensor_msgs/PointCloud2.h>
-
-#include <boost/make_shared.hpp>
+#include <condition_variable>
+#include <deque>
 #include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "pcrb_core/problem/secret.hpp"
 #include "server/cloud_cache.hpp"
 #include "server/run_plan.hpp"
+#include "server/serialized_cloud.hpp"
 #include "server/server_parameters.hpp"
 
 namespace pcrb {
@@ -23,28 +25,37 @@ struct PreparedProblem {
   const PlannedProblem* planned = nullptr;
   std::shared_ptr<const LoadedCloud> target;
   std::shared_ptr<const LoadedCloud> source;
-  sensor_msgs::PointCloud2Ptr source_message;  ///< header to be filled in when it is published
-  sensor_msgs::PointCloud2Ptr target_message;  ///< empty where the target has not changed
+  SerializedCloud source_message;
+  SerializedCloud target_message;
+  bool target_changed =
+      false;  ///< whether this target is another one than that of the problem before
   Presentation presentation;
   Transform P = Transform::Identity();  ///< perturbation in the local frame
+  PoseError initial;                    ///< of P: what is scored without a reply
 };
 
-/// Loads and prepares problems one ahead of the server, in the background.
+/// Loads and prepares problems ahead of the server, in a thread of its own.
 class ProblemLoader {
  public:
-  /// @param problems  in serving order; kept by reference, as is `secret`.
+  /// @param problems  in serving order; kept by reference, as are the others.
   ProblemLoader(const ServerParameters& parameters, const Secret& secret,
                 const std::vector<PlannedProblem>& problems);
   ~ProblemLoader();
+  ProblemLoader(const ProblemLoader&) = delete;
+  ProblemLoader& operator=(const ProblemLoader&) = delete;
 
   /// Loads the first source of each sequence and kind, so that clouds in another frame than the
   /// problem file's are found before the run and not in the middle of it. Call before next().
   /// @throws Error  naming the sequence.
   void checkFrames();
 
-  /// The next problem; waits until it is ready and starts to prepare the one after it.
+  /// The next problem; waits until it is ready.
   /// @throws Error  if it cannot be loaded or posed.
   PreparedProblem next();
+
+  /// Lets one more problem be prepared. The first few are without being asked; the server asks for
+  /// one more whenever a reply is in, since the transport of clouds is then idle.
+  void prepareAnother();
 
  private:
   PreparedProblem prepare(std::size_t position);
@@ -54,15 +65,21 @@ class ProblemLoader {
                                           const Eigen::Vector3d& local_origin);
   std::shared_ptr<LoadedCloud> makeLoaded(const std::string& path, const DatasetCloud& read,
                                           const Eigen::Vector3d& local_origin);
-  void prefetch();
+  void work();
 
   const ServerParameters& parameters_;
   const Secret& secret_;
   const std::vector<PlannedProblem>& problems_;
-  std::size_t position_ = 0;
   CloudCache cache_;
   std::map<std::string, Eigen::Vector3d> origins_;  ///< local origins of targets, by path
-  std::future<PreparedProblem> next_;
+  CloudSerializer serializer_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t allowed_;                                ///< problems that may be prepared so far
+  std::deque<std::future<PreparedProblem>> prepared_;  ///< not taken yet, in order
+  bool is_over_ = false;
+  std::thread worker_;
 };
 
 }  // namespace pcrb

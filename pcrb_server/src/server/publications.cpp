@@ -106,32 +106,32 @@ bool Publications::hasGuess(const PreparedProblem& prepared) const {
   return prepared.planned->key.kind == Kind::kLocal || parameters_.global_guess;
 }
 
-void Publications::announce(const PreparedProblem& prepared, const Announcement& announcement) {
-  if (prepared.target_message || target_stamp_.isZero()) {
-    const auto message = prepared.target_message
-                             ? prepared.target_message
-                             : boost::make_shared<sensor_msgs::PointCloud2>(
-                                   toMessage(prepared.target->cloud, Transform::Identity(), {}));
-    target_stamp_ = announcement.stamp;
-    message->header = header(parameters_.map_frame, announcement.stamp);
-    const Eigen::Vector3d& origin = prepared.target->cloud.local_origin;
-    if (!origin.isZero()) {
-      broadcast("earth", parameters_.map_frame, Transform(Eigen::Translation3d(origin)),
-                announcement.stamp, true);
-    }
-    target_.publish(message);
+void Publications::announceTarget(const PreparedProblem& prepared,
+                                  const Announcement& announcement) {
+  const Eigen::Vector3d& origin = prepared.target->cloud.local_origin;
+  if (!origin.isZero()) {
+    broadcast("earth", parameters_.map_frame, Transform(Eigen::Translation3d(origin)),
+              announcement.stamp, true);
   }
-  const bool is_localization = parameters_.presentation == PresentationKind::kLocalization;
+  target_stamp_ = announcement.stamp;
+  SerializedCloud target = prepared.target_message;
+  target.setStamp(announcement.stamp);
+  target_.publish(target);
+}
+
+void Publications::announce(const PreparedProblem& prepared, const Announcement& announcement) {
+  if (prepared.target_changed) announceTarget(prepared, announcement);
   auto problem = withHeader<pcrb_msgs::Problem>(parameters_.map_frame, announcement.stamp);
   problem.problem_id = announcement.problem_id;
   problem.data_set = prepared.planned->key.data_set;
   problem.kind = kindNumber(prepared.planned->key.kind);
-  problem.presentation = static_cast<std::uint8_t>(
-      is_localization ? pcrb_msgs::Problem::LOCALIZATION : pcrb_msgs::Problem::REGISTRATION);
+  problem.presentation =
+      static_cast<std::uint8_t>(parameters_.isLocalization() ? pcrb_msgs::Problem::LOCALIZATION
+                                                             : pcrb_msgs::Problem::REGISTRATION);
   problem.index = announcement.index;
   problem.count = announcement.count;
   problem.target_stamp = target_stamp_;
-  problem.source_frame = is_localization ? parameters_.scan_frame : parameters_.map_frame;
+  problem.source_frame = parameters_.sourceFrame();
   problem.has_guess = hasGuess(prepared) ? 1 : 0;
   problem.initial_guess =
       toMessage(hasGuess(prepared) ? prepared.presentation.guess : Transform::Identity());
@@ -146,10 +146,9 @@ void Publications::handOut(const PreparedProblem& prepared, const Announcement& 
     pose.pose.pose = toMessage(prepared.presentation.guess);
     initial_pose_.publish(pose);
   }
-  const bool is_localization = parameters_.presentation == PresentationKind::kLocalization;
-  prepared.source_message->header =
-      header(is_localization ? parameters_.scan_frame : parameters_.map_frame, announcement.stamp);
-  source_.publish(prepared.source_message);
+  SerializedCloud source = prepared.source_message;
+  source.setStamp(announcement.stamp);
+  source_.publish(source);
   if (parameters_.debug) showTruth(prepared, announcement);
 }
 

@@ -47,6 +47,7 @@ class Publications {
   std::set<std::string> listeners() const;
 
  private:
+  void announceTarget(const PreparedProblem& prepared, const Announcement& announcement);
   void showReply(const PreparedProblem& prepared, const Announcement& announcement,
                  const Result& result);
   void showTruth(const PreparedProblem& prepared, const Announcement& announcement);

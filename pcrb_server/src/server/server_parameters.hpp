@@ -35,6 +35,11 @@ struct ServerParameters {
   std::string map_frame;
   std::string scan_frame;
   bool publish_tf = true;
+
+  bool isLocalization() const { return presentation == PresentationKind::kLocalization; }
+
+  /// Frame of the source as it is handed out.
+  const std::string& sourceFrame() const { return isLocalization() ? scan_frame : map_frame; }
 };
 
 /// Reads and checks all private parameters.
