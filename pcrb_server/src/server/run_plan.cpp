@@ -6,6 +6,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_hash.hpp"
 #include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/selection.hpp"
 
 namespace pcrb {
 
@@ -71,8 +72,25 @@ void addProblems(const SequenceFiles& files, const std::shared_ptr<const Dataset
   }
 }
 
-std::vector<PlannedProblem> select(std::vector<PlannedProblem> p, const ServerParameters&) {
-  return p;
+std::vector<Candidate> candidatesOf(const std::vector<PlannedProblem>& problems) {
+  std::vector<Candidate> candidates;
+  for (const auto& planned : problems) {
+    const ProblemKey& key = planned.key;
+    candidates.push_back({key.data_set, key.sequence, key.kind, key.problem_id,
+                          planned.problem.source, planned.problem.target});
+  }
+  return candidates;
+}
+
+/// The shard of the subset: shards of one subset are disjoint and together complete.
+std::vector<PlannedProblem> select(std::vector<PlannedProblem> problems,
+                                   const ServerParameters& parameters) {
+  problems = elementsAt(
+      problems, drawSubset(candidatesOf(problems), static_cast<std::size_t>(parameters.subset),
+                           static_cast<std::uint64_t>(parameters.seed)));
+  return elementsAt(problems,
+                    takeShard(candidatesOf(problems), static_cast<std::size_t>(parameters.shard),
+                              static_cast<std::size_t>(parameters.shards)));
 }
 
 }  // namespace
@@ -103,8 +121,8 @@ std::string PlannedProblem::subject() const {
 }
 
 std::vector<PlannedProblem> inServingOrder(const std::vector<PlannedProblem>& problems,
-                                           const Secret&) {
-  return problems;
+                                           const Secret& secret) {
+  return elementsAt(problems, secretOrder(candidatesOf(problems), secret));
 }
 
 }  // namespace pcrb
