@@ -2,7 +2,8 @@
 ///   bare_publisher POINTS COUNT   publishes clouds one by one, each after the answer to the last
 ///   bare_subscriber               answers every cloud over a persistent service
 ///   instant_client                a client of benchmark_server that answers every problem at once
-/// The first and the last print the median of their period in ms. `run_server_overhead` starts them.
+/// The first and the last print the median of their period in ms. `run_server_overhead` starts
+/// them.
 
 #include <pcrb_msgs/Problem.h>
 #include <pcrb_msgs/Ready.h>
