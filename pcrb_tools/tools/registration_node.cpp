@@ -2,6 +2,7 @@
 #include <ros/package.h>
 
 #include "pcrb_core/registration/method_parameters.hpp"
+#include "pcrb_core/registration/registry.hpp"
 #include "pcrb_server/node_main.hpp"
 #include "pcrb_server/node_parameters.hpp"
 #include "pcrb_tools/registration_client.hpp"
@@ -13,6 +14,7 @@ const pcrb::NodeHelp kHelp{
     "Solves the benchmark's problems with a registration method: subscribes, aligns, submits.",
     R"(Private parameters (default):
   method (gicp)     icp, gicp, … (a wrong name lists them all)
+  plugin            shared library with methods of your own, loaded before the method is looked up
   parameters        YAML file of the method's parameters
                     (config/methods/<method>.yaml of the package pcrb_launch: the paper's)
 
@@ -27,7 +29,11 @@ int run(pcrb::ShutdownNotice& shutdown) {
   const auto make = [&](const std::string& data_set) {
     return pcrb::makeRegistration(method, pcrb::loadMethodParameters(file, data_set));
   };
-  reader.check([&] { make(""); });
+  const std::string plugin = reader.string("plugin", "");
+  reader.check([&] {
+    if (!plugin.empty()) pcrb::loadRegistrationLibrary(plugin);
+    make("");
+  });
   reader.finish();
   pcrb_tools::RegistrationClient client(make);
   const ros::WallDuration period(0.1);
