@@ -220,7 +220,7 @@ bool BenchmarkServer::conclude() {
   const auto summaries = record_.summary();
   const bool is_finished = done_ == plan_.problems.size();
   const std::string table = formatSummary(summaries);
-  record_.writeExports(table);
+  if (is_finished) record_.writeExports(table);
   std::cout << '\n' << table << std::flush;
   if (!is_finished) {
     std::cout << done_ << " of " << plan_.problems.size()
