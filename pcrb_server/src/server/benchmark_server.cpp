@@ -145,7 +145,7 @@ bool BenchmarkServer::serve(PreparedProblem prepared) {
   const Announcement announcement = nextAnnouncement(prepared);
   exchange_.announce(announcement.problem_id, announcement.stamp);
   publications_.announce(prepared, announcement);
-  const bool is_waited_for = !parameters_.handshake || waitForClient(prepared, announcement);
+  const bool is_waited_for = !parameters_.handshake || waitForClient();
   if (!is_waited_for) return false;
   exchange_.handOut(std::chrono::duration<double>(parameters_.time_limit));
   publications_.handOut(prepared, announcement);
@@ -159,7 +159,7 @@ bool BenchmarkServer::serve(PreparedProblem prepared) {
   return true;
 }
 
-bool BenchmarkServer::waitForClient(const PreparedProblem&, const Announcement&) {
+bool BenchmarkServer::waitForClient() {
   const bool is_first = exchange_.client().empty();
   const double limit = is_first ? parameters_.connect_limit : parameters_.ready_limit;
   const auto start = Exchange::Clock::now();

@@ -45,7 +45,7 @@ class BenchmarkServer {
   void waitForStart();
   void waitForListener();
   bool serve(PreparedProblem prepared);
-  bool waitForClient(const PreparedProblem& prepared, const Announcement& announcement);
+  bool waitForClient();
   Result score(const PreparedProblem& prepared, const Reply& reply) const;
   Announcement nextAnnouncement(const PreparedProblem& prepared);
   bool conclude();
