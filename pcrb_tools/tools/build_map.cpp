@@ -1,0 +1,25 @@
+#include "pcrb_core/parallel.hpp"
+#include "pcrb_tools/map_tool.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Merges the clouds of a sequence, which are in the world frame, into a map: the centroid of "
+      "the points in each voxel of a fixed grid.");
+  app.footer(
+      "Memory is bounded by the map, not by the sequence.\n"
+      "Example: build_map ~/pcrb/planetary/box_met -o ~/pcrb/planetary/p2at_met/box_map.pcd");
+  pcrb_tools::MapOptions options;
+  options.threads = pcrb::processorCount();
+  app.add_option("folder", options.folder, "<root>/<data set>/<sequence>, a folder of .pcd files")
+      ->required();
+  app.add_option("-o,--output", options.output, "the map, a .pcd file")->required();
+  app.add_option("--leaf", options.leaf, "edge of a voxel, m [the data set's]");
+  app.add_option("--exclude", options.excluded, "clouds to leave out");
+  app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_flag("--force", options.force, "replace an output that this tool did not make");
+  return pcrb_tools::runTool(app, argc, argv, [&] {
+    runMapTool(options);
+    return pcrb_tools::kSuccess;
+  });
+}
