@@ -119,7 +119,7 @@ class Sampling {
 
   /// A map that is not asked for is no scan.
   bool isExcluded(const std::string& name) const {
-    return (options_.map.empty() && name == kMapCloud) ||
+    return (options_.map.empty() && name == pcrb::kMapCloud) ||
            std::count(options_.excluded.begin(), options_.excluded.end(), name) > 0;
   }
 

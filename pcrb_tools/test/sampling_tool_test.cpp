@@ -10,6 +10,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
+#include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem_file.hpp"
 #include "pcrb_core/random.hpp"
@@ -33,7 +34,7 @@ class SamplingToolTest : public ::testing::Test {
  protected:
   SamplingToolTest() {
     fs::create_directories(folder_.file("planetary/p2at_met"));
-    std::vector<std::string> names{kMapCloud};
+    std::vector<std::string> names{pcrb::kMapCloud};
     for (int i = 0; i < 20; ++i) names.push_back("p2at_met_" + std::to_string(i) + ".pcd");
     pcrb::Random random(5);
     pcrb::OverlapMatrix matrix(names);
@@ -70,8 +71,8 @@ TEST_F(SamplingToolTest, WritesBothListsWithinTheDataSetsBounds) {
     EXPECT_EQ(list.size(), kind == Kind::kLocal ? 3000U : 100U);
     for (const pcrb::Problem& problem : list) {
       EXPECT_GE(problem.overlap, kind == Kind::kLocal ? 0.4 : 0.6);
-      EXPECT_NE(problem.source, kMapCloud);
-      EXPECT_NE(problem.target, kMapCloud);
+      EXPECT_NE(problem.source, pcrb::kMapCloud);
+      EXPECT_NE(problem.target, pcrb::kMapCloud);
       const Eigen::Vector3d center =
           centroid(pcrb::readPcd(options_.folder + "/" + problem.source));
       const pcrb::Transform P = pcrb::requireRigid(problem.perturbation);
@@ -100,7 +101,7 @@ TEST_F(SamplingToolTest, RecordsTheSeedAndGivesTheSameBytesForIt) {
 }
 
 TEST_F(SamplingToolTest, MapModePosesEveryScanAgainstTheMapInBothLists) {
-  options_.map = kMapCloud;
+  options_.map = pcrb::kMapCloud;
   runSamplingTool(options_);
   const auto local = problems("planetary_map_local.txt");
   const auto global = problems("planetary_map_global.txt");
@@ -108,7 +109,7 @@ TEST_F(SamplingToolTest, MapModePosesEveryScanAgainstTheMapInBothLists) {
   ASSERT_EQ(global.size(), 20U);
   std::set<std::string> sources;
   for (std::size_t k = 0; k < global.size(); ++k) {
-    EXPECT_EQ(global[k].target, kMapCloud);
+    EXPECT_EQ(global[k].target, pcrb::kMapCloud);
     EXPECT_EQ(global[k].source, local[30 * k].source);
     EXPECT_EQ(global[k].overlap, local[30 * k].overlap);
     sources.insert(global[k].source);
@@ -145,12 +146,12 @@ TEST_F(SamplingToolTest, SaysWhatIsMissing) {
     }
     return std::string("no error");
   };
-  pcrb::OverlapMatrix matrix({kMapCloud, "p2at_met_0.pcd", "p2at_met_1.pcd"});
+  pcrb::OverlapMatrix matrix({pcrb::kMapCloud, "p2at_met_0.pcd", "p2at_met_1.pcd"});
   matrix.at(1, 2) = 0.3;
   pcrb::writeOverlapMatrix(folder_.file("planetary/p2at_met_overlap.txt"), matrix);
   EXPECT_NE(error().find("found no pair with an overlap of at least 0.4"), std::string::npos)
       << error();
-  options_.map = kMapCloud;
+  options_.map = pcrb::kMapCloud;
   EXPECT_NE(error().find("--target box_map.pcd"), std::string::npos) << error();
   options_.map = "map.pcd";
   EXPECT_NE(error().find("found no cloud 'map.pcd'"), std::string::npos) << error();

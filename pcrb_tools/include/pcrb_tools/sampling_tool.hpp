@@ -15,15 +15,12 @@ struct SamplingOptions {
   std::string map;      ///< every cloud against this one instead of pair sampling; empty = sampling
   std::string sequence;  ///< name in files and ids; empty = the folder's, or `planetary_map`
   std::vector<pcrb::Kind> kinds{pcrb::Kind::kLocal, pcrb::Kind::kGlobal};
-  std::vector<std::string> excluded;  ///< clouds that pairs are not drawn from
+  std::vector<std::string> excluded;  ///< clouds that pairs are not drawn from; kMapCloud never is
   pcrb::BoundsSource bounds = pcrb::BoundsSource::kMeasured;
   std::uint64_t seed = 1;
   int threads = 1;
   bool force = false;  ///< replace outputs that somebody else made
 };
-
-/// Cloud that is a map and no scan: pairs are not drawn from it unless it is named as the map.
-constexpr const char* kMapCloud = "box_map.pcd";
 
 /// Draws the registration problems of a sequence and writes `<sequence>_local.txt` and
 /// `<sequence>_global.txt` beside its folder, each with a side file that records the seed.

@@ -10,6 +10,9 @@
 
 namespace pcrb {
 
+/// File name of the cloud of a folder that is a map and no scan (FORMATS: p2at_met's folder).
+constexpr const char* kMapCloud = "box_map.pcd";
+
 /// A source, a target and their overlap in [0, 1].
 struct CloudPair {
   std::string source;  ///< file name

@@ -1,0 +1,111 @@
+#include <cstring>
+#include <mutex>
+#include <utility>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/cloud_files.hpp"
+#include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/parallel.hpp"
+#include "pcrb_core/problem/dataset_check.hpp"
+
+namespace pcrb {
+namespace {
+
+/// FNV-1a over the bits of the coordinates.
+std::size_t hashOf(const std::vector<Eigen::Vector3d>& points) {
+  std::size_t hash = 0xcbf29ce484222325ULL;
+  for (const Eigen::Vector3d& point : points) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      std::size_t bits = 0;
+      const double coordinate = point[axis];
+      std::memcpy(&bits, &coordinate, sizeof(bits));
+      hash = (hash ^ bits) * 0x100000001b3ULL;
+    }
+  }
+  return hash;
+}
+
+/// Findings about one cloud; its summary if it could be read.
+std::optional<CloudSummary> checkCloud(const std::string& path, std::vector<Finding>& findings) {
+  try {
+    const DatasetCloud cloud = readPcd(path);
+    if (cloud.dropped_non_finite > 0) {
+      findings.push_back({Severity::kNote, path,
+                          std::to_string(cloud.dropped_non_finite) +
+                              " points with a coordinate that is not finite are left out"});
+    }
+    if (!cloud.points.empty()) return summarize(cloud);
+    findings.push_back({Severity::kError, path, "cloud has no points"});
+  } catch (const InvalidFile& error) {
+    // The message begins with the path, perhaps with a line.
+    findings.push_back({Severity::kError, "", error.what()});
+  }
+  return std::nullopt;
+}
+
+void findDuplicates(const std::string& folder, const CloudSummaries& summaries,
+                    std::vector<Finding>& findings) {
+  std::map<std::pair<std::size_t, std::size_t>, std::string> first;
+  for (const auto& [name, summary] : summaries) {
+    if (!summary) continue;
+    const auto [earlier, is_new] = first.emplace(std::pair(summary->hash, summary->points), name);
+    if (is_new) continue;
+    findings.push_back(
+        {Severity::kWarning, folder + "/" + name, "has the same points as " + earlier->second});
+  }
+}
+
+}  // namespace
+
+const char* toString(Severity severity) {
+  switch (severity) {
+    case Severity::kNote:
+      return "note";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kError:
+      break;
+  }
+  return "error";
+}
+
+CloudSummary summarize(const DatasetCloud& cloud) {
+  CloudSummary summary;
+  summary.points = cloud.points.size();
+  summary.dropped_non_finite = cloud.dropped_non_finite;
+  summary.has_viewpoint = cloud.hasViewpoint();
+  summary.centroid = centroid(cloud);
+  for (const Eigen::Vector3d& point : cloud.points) summary.box.extend(point);
+  summary.hash = hashOf(cloud.points);
+  return summary;
+}
+
+std::vector<Finding> checkClouds(const std::string& folder, int threads, CloudSummaries& summaries,
+                                 const std::function<void()>& on_cloud) {
+  const std::vector<std::string> names = findClouds(folder);
+  std::vector<std::vector<Finding>> of_cloud(names.size());
+  std::mutex mutex;
+  summaries.clear();
+  parallelFor(names.size(), threads, [&](std::size_t i) {
+    const auto summary = checkCloud(folder + "/" + names[i], of_cloud[i]);
+    const std::lock_guard<std::mutex> lock(mutex);
+    summaries[names[i]] = summary;
+    if (on_cloud) on_cloud();
+  });
+  std::vector<Finding> findings;
+  if (names.empty()) findings.push_back({Severity::kError, folder, "has no .pcd file"});
+  for (const auto& some : of_cloud) findings.insert(findings.end(), some.begin(), some.end());
+  findDuplicates(folder, summaries, findings);
+  std::size_t without_viewpoint = 0;
+  for (const auto& [name, summary] : summaries) {
+    without_viewpoint += summary && !summary->has_viewpoint ? 1 : 0;
+  }
+  if (without_viewpoint > 0) {
+    findings.push_back({Severity::kNote, folder,
+                        std::to_string(without_viewpoint) + " of " + std::to_string(names.size()) +
+                            " clouds have no VIEWPOINT: their sensor's pose is unknown"});
+  }
+  return findings;
+}
+
+}  // namespace pcrb
