@@ -1,0 +1,28 @@
+#include <iostream>
+
+#include "pcrb_core/parallel.hpp"
+#include "pcrb_tools/check_tool.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Checks data sets in the common layout: every cloud readable, the clouds of every problem "
+      "present and in its frame, no duplicates, overlaps recomputed on a sample.");
+  app.footer(
+      "One line per finding on standard output; exit status 1 if one is an error. If a problem "
+      "file "
+      "was made with clouds in another frame, the offset that would explain it is estimated.\n"
+      "Example: check_dataset ~/pcrb eth/apartment kaist");
+  pcrb_tools::CheckOptions options;
+  options.threads = pcrb::processorCount();
+  app.add_option("root", options.root, "folder of data sets")->required();
+  app.add_option("sequences", options.sequences, "<data set> or <data set>/<sequence> [all]");
+  app.add_option("--overlap-pairs", options.overlap_pairs,
+                 "pairs of each problem file whose overlap is recomputed")
+      ->capture_default_str();
+  app.add_flag("--strict", options.strict, "exit with 1 for warnings too");
+  app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
+  return pcrb_tools::runTool(app, argc, argv, [&] {
+    return runCheckTool(options, std::cout) ? pcrb_tools::kSuccess : pcrb_tools::kFailure;
+  });
+}
