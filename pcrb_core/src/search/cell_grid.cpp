@@ -1,6 +1,7 @@
 #include "pcrb_core/search/cell_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -15,6 +16,48 @@ namespace {
 /// Beyond this many cells from the origin, coordinates in cells lose the precision that Coverage's
 /// margins are made for.
 constexpr double kMaxCells = 1e8;
+
+/// In a block with more points, cells that are wholly near or far spare the distances of theirs.
+constexpr std::uint32_t kMaxPointsWithoutCells = 24;
+
+/// Squares of the smallest and the largest distance from a position to the cells of a block, axis
+/// by axis, in cells.
+class CellDistances {
+ public:
+  /// @param position  in cells, relative to the block's corner.
+  explicit CellDistances(const Eigen::Vector3d& position) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+        const double below = position[static_cast<Eigen::Index>(axis)] - static_cast<double>(cell);
+        const double above = 1.0 - below;
+        const double near = std::max({0.0, below - 1.0, -below});
+        const double far = std::max(below, above);
+        nearest_[axis][cell] = near * near;
+        farthest_[axis][cell] = far * far;
+      }
+    }
+  }
+
+  /// Whether all positions in the cell are certainly closer than the search distance.
+  bool isWithin(std::uint16_t cell) const {
+    return sum(farthest_, cell) < kSquaredCellsPerDistance - kSquaredCellMargin;
+  }
+
+  /// Whether all positions in the cell are certainly farther than the search distance.
+  bool isBeyond(std::uint16_t cell) const {
+    return sum(nearest_, cell) > kSquaredCellsPerDistance + kSquaredCellMargin;
+  }
+
+ private:
+  using Table = std::array<std::array<double, kCellsPerBlock>, 3>;
+
+  static double sum(const Table& table, std::uint16_t cell) {
+    return table[0][cell & 7] + table[1][cell >> 3 & 7] + table[2][cell >> 6];
+  }
+
+  Table nearest_;
+  Table farthest_;
+};
 
 }  // namespace
 
@@ -112,8 +155,23 @@ Eigen::Vector3d CellGrid::cellCoordinates(const Eigen::Vector3d& point, const Bl
 }
 
 bool CellGrid::blockHasPointNear(std::uint32_t block, const Eigen::Vector3d& point) const {
-  const std::size_t begin = cells_[blocks_[block].first_cell].first_point;
-  const std::size_t end = cells_[blocks_[block + 1].first_cell].first_point;
+  const std::uint32_t first_cell = blocks_[block].first_cell;
+  const std::uint32_t end_cell = blocks_[block + 1].first_cell;
+  const std::uint32_t begin = cells_[first_cell].first_point;
+  const std::uint32_t end = cells_[end_cell].first_point;
+  if (end - begin <= kMaxPointsWithoutCells) return hasPointNear(begin, end, point);
+
+  const CellDistances distances(cellCoordinates(point, blocks_[block].key));
+  for (std::uint32_t c = first_cell; c < end_cell; ++c) {
+    if (distances.isWithin(cells_[c].index)) return true;
+    if (distances.isBeyond(cells_[c].index)) continue;
+    if (hasPointNear(cells_[c].first_point, cells_[c + 1].first_point, point)) return true;
+  }
+  return false;
+}
+
+bool CellGrid::hasPointNear(std::uint32_t begin, std::uint32_t end,
+                            const Eigen::Vector3d& point) const {
   return anyCloser(x_.data() + begin, y_.data() + begin, z_.data() + begin, end - begin,
                    point.data(), distance_ * distance_);
 }

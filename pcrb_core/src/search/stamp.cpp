@@ -8,10 +8,6 @@
 namespace pcrb {
 namespace {
 
-/// In squared cells. Coordinates in cells are wrong by less than 1e-6 and distances are at most 13
-/// cells, so that squared distances are wrong by less than 1e-4.
-constexpr double kMargin = 1e-3;
-
 /// Squares of the largest and of the smallest distance along one axis between the interval
 /// [low, high] and the cell [offset, offset + 1].
 struct AxisDistance {
@@ -27,7 +23,6 @@ AxisDistance axisDistance(double low, double high, int offset) {
 
 /// The stamp of a box in the cell (0, 0, 0): position `corner`, edge length `edge`, in cells.
 Stamp makeStamp(const std::array<double, 3>& corner, double edge) {
-  constexpr double kSquaredDistance = kCellsPerDistance * kCellsPerDistance;
   std::array<std::array<AxisDistance, Stamp::kRows>, 3> axis{};
   for (std::size_t a = 0; a < 3; ++a) {
     for (int offset = -kReach; offset <= kReach; ++offset) {
@@ -41,8 +36,9 @@ Stamp makeStamp(const std::array<double, 3>& corner, double edge) {
       for (std::size_t x = 0; x < Stamp::kRows; ++x) {
         const double largest = axis[0][x].largest + axis[1][y].largest + axis[2][z].largest;
         const double smallest = axis[0][x].smallest + axis[1][y].smallest + axis[2][z].smallest;
-        if (largest < kSquaredDistance - kMargin) stamp.certain[z][y] |= 1U << x;
-        if (smallest < kSquaredDistance + kMargin) stamp.possible[z][y] |= 1U << x;
+        if (largest < kSquaredCellsPerDistance - kSquaredCellMargin) stamp.certain[z][y] |= 1U << x;
+        if (smallest < kSquaredCellsPerDistance + kSquaredCellMargin)
+          stamp.possible[z][y] |= 1U << x;
       }
     }
   }

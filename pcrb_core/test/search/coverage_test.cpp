@@ -125,13 +125,32 @@ TEST(Coverage, BitsOfCellsHoldInTheirExtremeCorners) {
     const Eigen::Vector3d sub(corner % 5, corner / 5 % 5, corner / 25);
     for (const double inset : {-kInset, kInset}) {
       const Eigen::Vector3d q = kCell / 4 * sub + Eigen::Vector3d::Constant(inset);
-      for (const std::size_t copies : {1U, 5U}) {
+      for (const std::size_t copies : {1U, 5U, 30U}) {
         const Points target(copies, q);
         const CellGrid target_grid(target, {0, 0, 0}, kDistance);
         EXPECT_EQ(Coverage(target_grid).count(source_grid), countByForce(source, {q}, kDistance))
             << q.transpose();
       }
     }
+  }
+}
+
+/// Many target points in one corner of a cell and sources at all angles around it: whole cells are
+/// decided by their nearest and farthest corners.
+TEST(Coverage, CellsOfDenseBlocksAreDecidedByTheirCorners) {
+  constexpr double kCell = 0.1 / kCellsPerDistance;
+  RandomPoints random(5);
+  const Points source = random.box(20000, {-0.12, -0.12, -0.12}, {0.27, 0.27, 0.27});
+  const CellGrid source_grid(source, {0, 0, 0}, 0.1);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d inset(1e-6 * (1 - 2 * (corner & 1)), 1e-6 * (1 - (corner & 2)),
+                                1e-6 * (1 - (corner & 4) / 2));
+    const Eigen::Vector3d q =
+        kCell * Eigen::Vector3d(corner & 1, corner >> 1 & 1, corner >> 2) + inset;
+    const Points target(40, q);
+    const CellGrid target_grid(target, {0, 0, 0}, 0.1);
+    EXPECT_EQ(Coverage(target_grid).count(source_grid), countByForce(source, {q}, 0.1))
+        << q.transpose();
   }
 }
 

@@ -14,6 +14,12 @@ constexpr int kCellsPerBlock = 8;
 
 /// Length of a search distance in cells: a ball of that radius reaches half a block.
 constexpr int kCellsPerDistance = 4;
+constexpr double kSquaredCellsPerDistance = kCellsPerDistance * kCellsPerDistance;
+
+/// Margin of decisions on squared distances in cells: coordinates in cells are wrong by less than
+/// 1e-6 and distances in question are at most 13 cells, so that squares are wrong by less than
+/// 1e-4.
+constexpr double kSquaredCellMargin = 1e-3;
 
 /// A cloud's points sorted into a sparse grid of cubic cells, made for one search distance.
 ///
@@ -77,6 +83,7 @@ class CellGrid {
   Position locate(const Eigen::Vector3d& point, std::vector<BlockKey>& keys);
   void sortIntoBlocks(const std::vector<Eigen::Vector3d>& points,
                       const std::vector<Position>& positions, const std::vector<BlockKey>& keys);
+  bool hasPointNear(std::uint32_t begin, std::uint32_t end, const Eigen::Vector3d& point) const;
   void appendBlock(const std::vector<Eigen::Vector3d>& points, const BlockKey& key, Entry* begin,
                    Entry* end);
 
