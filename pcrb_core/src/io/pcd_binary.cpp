@@ -94,9 +94,12 @@ std::size_t rowBytes(const PcdHeader& header, bool with_padding) {
   return bytes;
 }
 
-/// Whether `size` bytes are `points` rows of `row_bytes`; the product may not fit.
+/// Whether `size` bytes are exactly, or at least, `points` rows; the product may not fit.
 bool isExactly(std::size_t size, std::size_t points, std::size_t row_bytes) {
-  return size % row_bytes == 0 && size / row_bytes == points;
+  return points == 0 ? size == 0 : size % points == 0 && size / points == row_bytes;
+}
+bool isAtLeast(std::size_t size, std::size_t points, std::size_t row_bytes) {
+  return points == 0 || size / points >= row_bytes;
 }
 
 std::string describe(const PcdHeader& header, std::size_t row_bytes) {
@@ -129,8 +132,8 @@ void collectFields(const PcdHeader& header, const LineReader& lines, std::string
 void readPcdBinary(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud) {
   const std::string_view data = lines.rest();
   const std::size_t row_bytes = rowBytes(header, true);
-  const std::size_t available = data.size() / row_bytes;
-  if (available < header.points || !isFill(data.substr(header.points * row_bytes))) {
+  if (!isAtLeast(data.size(), header.points, row_bytes) ||
+      !isFill(data.substr(header.points * row_bytes))) {
     lines.fail(std::to_string(data.size()) + " bytes of data", describe(header, row_bytes));
   }
   std::vector<Column> columns;
