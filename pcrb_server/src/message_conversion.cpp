@@ -3,8 +3,9 @@
 #include <sensor_msgs/PointField.h>
 
 #include <cstring>
+#include <optional>
 
-#include "pcrb_core/error.hpp"
+#include "pcrb_server/point_fields.hpp"
 
 namespace pcrb {
 
@@ -18,39 +19,6 @@ sensor_msgs::PointField floatField(const std::string& name, std::uint32_t offset
   field.count = 1;
   return field;
 }
-
-template <typename T>
-double readAs(const std::uint8_t* data) {
-  T value;
-  std::memcpy(&value, data, sizeof(value));
-  return static_cast<double>(value);
-}
-
-/// Reads one named FLOAT32 or FLOAT64 field of every point.
-class FieldReader {
- public:
-  FieldReader(const sensor_msgs::PointCloud2& message, const std::string& name) {
-    for (const auto& field : message.fields) {
-      if (field.name != name) continue;
-      offset_ = field.offset;
-      is_double_ = field.datatype == sensor_msgs::PointField::FLOAT64;
-      const bool is_float = field.datatype == sensor_msgs::PointField::FLOAT32;
-      found_ = (is_double_ || is_float) &&
-               std::uint64_t{offset_} + (is_double_ ? 8 : 4) <= message.point_step;
-    }
-  }
-
-  bool found() const { return found_; }
-
-  double operator()(const std::uint8_t* point) const {
-    return is_double_ ? readAs<double>(point + offset_) : readAs<float>(point + offset_);
-  }
-
- private:
-  std::uint32_t offset_ = 0;
-  bool is_double_ = false;
-  bool found_ = false;
-};
 
 }  // namespace
 
@@ -86,31 +54,19 @@ sensor_msgs::PointCloud2 toMessage(const PointCloud& cloud, const Transform& T,
 }
 
 PointCloud fromMessage(const sensor_msgs::PointCloud2& message) {
-  const FieldReader x(message, "x");
-  const FieldReader y(message, "y");
-  const FieldReader z(message, "z");
-  const FieldReader intensity(message, "intensity");
-  if (!x.found() || !y.found() || !z.found()) {
-    throw InvalidProblem("PointCloud2: expected fields x, y and z of type FLOAT32 or FLOAT64");
-  }
-  if (message.is_bigendian != 0) {
-    throw InvalidProblem("PointCloud2: found big-endian data, expected little-endian");
-  }
-  // Some drivers leave row_step at 0: points follow each other by point_step alone.
-  const std::size_t count = std::size_t{message.width} * message.height;
-  if (message.data.size() / message.point_step < count) {
-    throw InvalidProblem("PointCloud2: found " + std::to_string(message.data.size()) +
-                         " bytes of data, expected " + std::to_string(count) + " points of " +
-                         std::to_string(message.point_step));
-  }
+  const std::size_t count = countPoints(message);
+  const PointField x(message, "x");
+  const PointField y(message, "y");
+  const PointField z(message, "z");
+  std::optional<PointField> intensity;
+  if (hasFloatField(message, "intensity")) intensity.emplace(message, "intensity");
   PointCloud cloud;
   cloud.points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint8_t* point = message.data.data() + i * message.point_step;
-    const Eigen::Vector3f p = Eigen::Vector3d(x(point), y(point), z(point)).cast<float>();
+    const Eigen::Vector3f p = Eigen::Vector3d(x[i], y[i], z[i]).cast<float>();
     if (!p.allFinite()) continue;
     cloud.points.push_back(p);
-    if (intensity.found()) cloud.intensity.push_back(static_cast<float>(intensity(point)));
+    if (intensity) cloud.intensity.push_back(static_cast<float>((*intensity)[i]));
   }
   return cloud;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <future>
 #include <limits>
 #include <thread>
 
@@ -109,10 +110,25 @@ TEST_F(ExchangeTest, RejectsNumbersThatAreNotFinite) {
   request.pose.pose.orientation.z = std::numeric_limits<double>::infinity();
   EXPECT_EQ(submit(request), Response::NOT_FINITE);
   request = validReply();
+  request.pose.pose.position.x = 1e300;  // composing it with other transforms would overflow
+  EXPECT_EQ(submit(request), Response::NOT_FINITE);
+  request = validReply();
   request.covariance[35] = std::nan("");
   request.has_covariance = 1;
   EXPECT_EQ(submit(request), Response::NOT_FINITE);
   request.has_covariance = 0;
+  EXPECT_EQ(submit(request), Response::OK);
+}
+
+TEST_F(ExchangeTest, RejectsSolverTimesThatCannotBeStored) {
+  handOut("a");
+  Request request = validReply();
+  request.solver_time = -1.0;
+  EXPECT_EQ(submit(request), Response::NOT_FINITE);
+  request.solver_time = std::numeric_limits<double>::infinity();
+  request.status = Request::FAILED;
+  EXPECT_EQ(submit(request), Response::NOT_FINITE);
+  request.solver_time = 0.5;
   EXPECT_EQ(submit(request), Response::OK);
 }
 
@@ -195,6 +211,25 @@ TEST_F(ExchangeTest, SkippingEndsTheProblemAndNotTheNextOne) {
   EXPECT_EQ(exchange_.waitReply(reply_), Wait::kLimit);
 }
 
+TEST_F(ExchangeTest, SkipsNothingWhereNoProblemWaitsForItsReply) {
+  EXPECT_FALSE(exchange_.skip());
+  handOut("a");
+  submit(validReply());
+  EXPECT_FALSE(exchange_.skip());
+  exchange_.waitReply(reply_);
+  EXPECT_FALSE(exchange_.skip());
+  handOut("b");
+  EXPECT_TRUE(exchange_.skip());
+}
+
+TEST_F(ExchangeTest, KeepsAReplyThatWasAcceptedBeforeTheStop) {
+  handOut("a");
+  submit(validReply());
+  exchange_.stop();
+  EXPECT_EQ(exchange_.waitReply(reply_), Wait::kDone);
+  EXPECT_EQ(reply_.position.x(), 1.5);
+}
+
 TEST_F(ExchangeTest, StoppingEndsEveryWait) {
   handOut("a");
   exchange_.stop();
@@ -238,6 +273,29 @@ TEST(Exchange, ComposesARepliesPoseWithTheTransformOfItsFrame) {
   exchange.waitReply(reply);
   EXPECT_LT((reply.position - Eigen::Vector3d(10, 1.5, 0)).norm(), 1e-12);
   EXPECT_NEAR(reply.orientation.z(), std::sqrt(0.5), 1e-12);
+}
+
+TEST(Exchange, WaitsForTheTransformOfAReplyThatCameInTime) {
+  std::promise<void> entered;
+  std::promise<Exchange::Clock::time_point> release;
+  Exchange exchange("map", [&](const std::string&, const ros::Time&) {
+    entered.set_value();
+    std::this_thread::sleep_until(release.get_future().get());
+    return std::make_optional(Transform::Identity());
+  });
+  exchange.announce("a", kStamp);
+  exchange.handOut(kLong);
+  Request request = validReply();
+  request.pose.header.frame_id = "odom";
+  Response response;
+  std::thread client([&] { exchange.submit(request, response); });
+  entered.get_future().wait();
+  exchange.handOut(kShort);
+  release.set_value(Exchange::Clock::now() + std::chrono::milliseconds(50));  // after the limit
+  Reply reply;
+  EXPECT_EQ(exchange.waitReply(reply), Wait::kDone);
+  client.join();
+  EXPECT_EQ(response.code, Response::OK);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ RegistrationClient::RegistrationClient(MethodFactory make_method)
 }
 
 void RegistrationClient::advance() {
-  if (!problem_ || problem_->problem_id == solved_id_ || !prepareTarget()) return;
-  if (ready_id_ != problem_->problem_id) callReady();
+  if (!problem_ || problem_->header.stamp == solved_stamp_ || !prepareTarget()) return;
+  if (ready_stamp_ != problem_->header.stamp) callReady();
   if (source_ && source_->header.stamp == problem_->header.stamp) solve();
 }
 
@@ -79,17 +79,17 @@ bool RegistrationClient::prepareTarget() {
 }
 
 void RegistrationClient::callReady() {
-  ready_id_ = problem_->problem_id;
+  ready_stamp_ = problem_->header.stamp;
   pcrb_msgs::Ready service;
   service.request.problem_id = problem_->problem_id;
   if (!call(node_, pcrb::services::kReady, ready_, service)) {
     ROS_WARN("the server does not answer on `%s`", ready_.getService().c_str());
-    ready_id_.clear();
+    ready_stamp_ = ros::Time();
   }
 }
 
 void RegistrationClient::solve() {
-  solved_id_ = problem_->problem_id;
+  solved_stamp_ = problem_->header.stamp;
   submit(align());
 }
 

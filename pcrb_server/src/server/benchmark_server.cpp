@@ -47,7 +47,8 @@ BenchmarkServer::BenchmarkServer(const ServerParameters& parameters, ShutdownNot
           withoutFinished(inServingOrder(plan_.problems, record_.secret()), record_.finished())),
       done_(plan_.problems.size() - remaining_.size()),
       is_paused_(!parameters.autostart),
-      tf_(parameters.map_frame, parameters.connect_limit + parameters.time_limit + 10.0),
+      tf_(parameters.map_frame, std::max(parameters.connect_limit, parameters.ready_limit) +
+                                    parameters.time_limit + 10.0),
       exchange_(parameters.map_frame, std::ref(tf_)),
       publications_(node_, parameters),
       loader_(parameters, record_.secret(), remaining_),
@@ -69,9 +70,7 @@ BenchmarkServer::~BenchmarkServer() {
 
 void BenchmarkServer::offerServices() {
   ros::NodeHandle node;
-  ros::NodeHandle private_node("~");
   node.setCallbackQueue(&service_queue_);
-  private_node.setCallbackQueue(&service_queue_);
   using ReadyEvent = ros::ServiceEvent<pcrb_msgs::Ready::Request, pcrb_msgs::Ready::Response>;
   services_.push_back(
       node.advertiseService<ReadyEvent>(services::kReady, [this](ReadyEvent& event) {
@@ -84,20 +83,29 @@ void BenchmarkServer::offerServices() {
         exchange_.submit(request, response);
         return true;
       }));
-  const auto offer = [&](const char* name, const char* message,
-                         const std::function<void()>& action) {
-    using std_srvs::Trigger;
-    services_.push_back(private_node.advertiseService<Trigger::Request, Trigger::Response>(
-        name, [message, action](Trigger::Request&, Trigger::Response& response) {
-          action();
-          response.success = 1;
-          response.message = message;
-          return true;
-        }));
-  };
-  offer(services::kStart, "running", [this] { is_paused_ = false; });
-  offer(services::kPause, "paused after the problem in flight", [this] { is_paused_ = true; });
-  offer(services::kSkip, "the problem in flight is skipped", [this] { exchange_.skip(); });
+  offerControl(services::kStart, [this] {
+    is_paused_ = false;
+    return "running";
+  });
+  offerControl(services::kPause, [this] {
+    is_paused_ = true;
+    return "paused after the problem in flight";
+  });
+  offerControl(services::kSkip,
+               [this] { return exchange_.skip() ? "the problem in flight is skipped" : nullptr; });
+}
+
+void BenchmarkServer::offerControl(const char* name, const std::function<const char*()>& action) {
+  using std_srvs::Trigger;
+  ros::NodeHandle private_node("~");
+  private_node.setCallbackQueue(&service_queue_);
+  services_.push_back(private_node.advertiseService<Trigger::Request, Trigger::Response>(
+      name, [action](Trigger::Request&, Trigger::Response& response) {
+        const char* done = action();
+        response.success = done != nullptr ? 1 : 0;
+        response.message = done != nullptr ? done : "no problem is in flight";
+        return true;
+      }));
 }
 
 bool BenchmarkServer::run() {
@@ -209,7 +217,7 @@ Result BenchmarkServer::score(const PreparedProblem& prepared, const Reply& repl
   result.runtime = reply.runtime;
   result.solver_time = reply.solver_time;
   result.scans_used = reply.scans_used;
-  result.target_changed = prepared.target_changed;
+  result.target_changed = planned.target_changed;
   result.replies_rejected = reply.rejected;
   result.finished = secondsSinceEpoch();
   return result;

@@ -6,6 +6,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ class BenchmarkServer {
 
  private:
   void offerServices();
+  /// @param action  returns what it did, or nullptr if there was nothing to do.
+  void offerControl(const char* name, const std::function<const char*()>& action);
   void waitForStart();
   void waitForListener();
   bool serve(PreparedProblem prepared);

@@ -12,21 +12,8 @@ namespace {
 using Request = pcrb_msgs::SubmitPose::Request;
 using Response = pcrb_msgs::SubmitPose::Response;
 
-constexpr double kUnitQuaternionTolerance = 1e-3;
-
 std::chrono::steady_clock::duration steady(std::chrono::duration<double> duration) {
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
-}
-
-bool isFinite(const Request& request) {
-  const auto& p = request.pose.pose.position;
-  const auto& q = request.pose.pose.orientation;
-  for (const double number : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) {
-    if (!std::isfinite(number)) return false;
-  }
-  return request.has_covariance == 0 ||
-         std::all_of(request.covariance.begin(), request.covariance.end(),
-                     [](double number) { return std::isfinite(number); });
 }
 
 Eigen::Quaterniond orientationOf(const Request& request) {
@@ -37,6 +24,8 @@ Eigen::Quaterniond orientationOf(const Request& request) {
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
+
+Rejection duplicate() { return {Response::DUPLICATE, "the problem has been answered already"}; }
 
 Outcome outcomeOf(std::uint8_t status) {
   if (status == Request::POSE) return Outcome::kReplied;
@@ -63,8 +52,8 @@ void Exchange::announce(const std::string& problem_id, const ros::Time& stamp) {
 Exchange::Wait Exchange::waitFor(std::unique_lock<std::mutex>& lock, Clock::time_point deadline,
                                  const std::function<bool()>& done) {
   changed_.wait_until(lock, deadline, [&] { return done() || is_skipped_ || is_stopped_; });
+  if (done()) return Wait::kDone;  // also if stopped: a reply that was accepted is kept
   if (is_stopped_) return Wait::kStopped;
-  if (done()) return Wait::kDone;
   return is_skipped_ ? Wait::kSkipped : Wait::kLimit;
 }
 
@@ -82,7 +71,12 @@ void Exchange::handOut(std::chrono::duration<double> limit) {
 
 Exchange::Wait Exchange::waitReply(Reply& reply) {
   std::unique_lock<std::mutex> lock(mutex_);
-  const Wait wait = waitFor(lock, deadline_, [this] { return reply_.has_value(); });
+  const auto is_answered = [this] { return reply_.has_value(); };
+  Wait wait = waitFor(lock, deadline_, is_answered);
+  while (wait == Wait::kLimit && looking_up_ > 0) {  // for replies that came in time
+    changed_.wait(lock);
+    wait = waitFor(lock, deadline_, is_answered);
+  }
   reply = reply_.value_or(Reply());
   reply.rejected = rejected_;
   if (wait == Wait::kSkipped) {
@@ -122,52 +116,35 @@ bool Exchange::inFlight(const std::string& problem_id) const {
   return (phase_ == Phase::kAnnounced || phase_ == Phase::kHandedOut) && problem_id == problem_id_;
 }
 
-Exchange::Code Exchange::check(const Request& request, Clock::time_point arrival,
-                               std::string& message) const {
+std::optional<Rejection> Exchange::check(const Request& request, Clock::time_point arrival) const {
   const auto ended = ended_.find(request.problem_id);
   if (ended != ended_.end()) {
-    message = ended->second ? "the problem has been answered already" : "the problem has ended";
-    return ended->second ? Response::DUPLICATE : Response::LATE;
+    if (ended->second) return duplicate();
+    return Rejection{Response::LATE, "the problem has ended"};
   }
-  if (phase_ == Phase::kRunOver) {
-    message = "the run is over";
-    return Response::NOT_RUNNING;
-  }
+  if (phase_ == Phase::kRunOver) return Rejection{Response::NOT_RUNNING, "the run is over"};
   if (!inFlight(request.problem_id)) {
-    message =
-        "found problem_id `" + request.problem_id + "`, expected that of an announced problem";
-    return Response::UNKNOWN_PROBLEM;
+    return Rejection{Response::UNKNOWN_PROBLEM, "found problem_id `" + request.problem_id +
+                                                    "`, expected that of an announced problem"};
   }
   if (phase_ == Phase::kAnnounced) {
-    message = "the problem's source has not been handed out: call `ready` first";
-    return Response::NOT_RUNNING;
+    return Rejection{Response::NOT_RUNNING,
+                     "the problem's source has not been handed out: call `ready` first"};
   }
-  if (reply_) {
-    message = "the problem has been answered already";
-    return Response::DUPLICATE;
-  }
-  if (arrival > deadline_) {
-    message = "the time limit is over";
-    return Response::LATE;
-  }
-  if (request.status > Request::TIMED_OUT) {
-    message = "found status " + std::to_string(request.status) + ", expected 0, 1 or 2";
-    return Response::NOT_FINITE;
-  }
-  return request.status == Request::POSE ? checkPose(request, message) : Code{Response::OK};
+  if (reply_) return duplicate();
+  if (arrival > deadline_) return Rejection{Response::LATE, "the time limit is over"};
+  return checkContent(request);
 }
 
-Exchange::Code Exchange::checkPose(const Request& request, std::string& message) const {
-  if (!isFinite(request)) {
-    message = "found a NaN or infinite number in the pose, expected finite ones";
-    return Response::NOT_FINITE;
-  }
-  const double norm = orientationOf(request).norm();
-  if (std::abs(norm - 1.0) > kUnitQuaternionTolerance) {
-    message = "found a quaternion of norm " + std::to_string(norm) + ", expected 1";
-    return Response::NOT_UNIT_QUATERNION;
-  }
-  return Response::OK;
+bool Exchange::isElsewhere(const Request& request) const {
+  const std::string frame = withoutSlash(request.pose.header.frame_id);
+  return !frame.empty() && frame != target_frame_;
+}
+
+Rejection Exchange::noTransform(const Request& request) const {
+  return {Response::NO_TRANSFORM, "tf does not connect `" +
+                                      withoutSlash(request.pose.header.frame_id) + "` with `" +
+                                      target_frame_ + "`"};
 }
 
 std::optional<Transform> Exchange::toTarget(const Request& request) const {
@@ -179,26 +156,28 @@ std::optional<Transform> Exchange::toTarget(const Request& request) const {
 void Exchange::submit(const Request& request, Response& response) {
   const Clock::time_point arrival = Clock::now();
   std::unique_lock<std::mutex> lock(mutex_);
-  response.code = check(request, arrival, response.message);
-  const std::string frame = withoutSlash(request.pose.header.frame_id);
+  auto rejection = check(request, arrival);
   std::optional<Transform> T_target_frame;
-  const bool is_elsewhere = !frame.empty() && frame != target_frame_;
-  if (response.code == Response::OK && request.status == Request::POSE && is_elsewhere) {
+  if (!rejection && request.status == Request::POSE && isElsewhere(request)) {
+    ++looking_up_;
     lock.unlock();  // tf may make us wait, and nobody else must
     T_target_frame = toTarget(request);
     lock.lock();
-    response.code = check(request, arrival, response.message);  // the problem may have ended
-    if (response.code == Response::OK && !T_target_frame) {
-      response.code = Response::NO_TRANSFORM;
-      response.message = "tf does not connect `" + frame + "` with `" + target_frame_ + "`";
-    }
+    --looking_up_;
+    changed_.notify_all();
+    rejection = check(request, arrival);  // the problem may have ended
+    if (!rejection && !T_target_frame) rejection = noTransform(request);
   }
-  response.accepted = response.code == Response::OK ? 1 : 0;
-  if (response.accepted != 0) {
+  response.accepted = rejection ? 0 : 1;
+  response.code = rejection ? rejection->code : std::uint8_t{Response::OK};
+  if (!rejection) {
     accept(request, arrival, T_target_frame);
-  } else if (inFlight(request.problem_id) && !reply_) {
+    return;
+  }
+  response.message = rejection->message;
+  if (inFlight(request.problem_id) && !reply_) {
     ++rejected_;
-    last_rejection_ = response.message;
+    last_rejection_ = rejection->message;
   }
 }
 
@@ -208,7 +187,7 @@ void Exchange::accept(const Request& request, Clock::time_point arrival,
   reply.outcome = outcomeOf(request.status);
   reply.reason = request.reason;
   reply.runtime = std::chrono::duration<double>(arrival - handed_out_).count();
-  if (std::isfinite(request.solver_time)) reply.solver_time = request.solver_time;
+  if (!std::isnan(request.solver_time)) reply.solver_time = request.solver_time;
   if (request.scans_used > 0) reply.scans_used = request.scans_used;
   if (reply.outcome == Outcome::kReplied) {
     const auto& p = request.pose.pose.position;
@@ -230,10 +209,12 @@ void Exchange::accept(const Request& request, Clock::time_point arrival,
   changed_.notify_all();
 }
 
-void Exchange::skip() {
+bool Exchange::skip() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  is_skipped_ = true;
+  const bool is_in_flight = inFlight(problem_id_) && !reply_;
+  if (is_in_flight) is_skipped_ = true;
   changed_.notify_all();
+  return is_in_flight;
 }
 
 void Exchange::stop() {

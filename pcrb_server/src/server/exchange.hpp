@@ -15,6 +15,7 @@
 
 #include "pcrb_core/evaluation/result.hpp"
 #include "pcrb_core/transform.hpp"
+#include "server/reply_checks.hpp"
 
 namespace pcrb {
 
@@ -51,7 +52,8 @@ class Exchange {
   void announce(const std::string& problem_id, const ros::Time& stamp);
   Wait waitReady(std::chrono::duration<double> limit);
   void handOut(std::chrono::duration<double> limit);
-  /// Waits for the reply and closes the problem; the reply says how it ended. kStopped: no reply.
+  /// Waits for the reply and closes the problem; the reply says how it ended. kStopped: no reply
+  /// was accepted before stop().
   Wait waitReply(Reply& reply);
   void endRun();
 
@@ -60,7 +62,7 @@ class Exchange {
              pcrb_msgs::Ready::Response& response);
   void submit(const pcrb_msgs::SubmitPose::Request& request,
               pcrb_msgs::SubmitPose::Response& response);
-  void skip();
+  bool skip();  ///< whether there was a problem in flight to be skipped
   void stop();  ///< ends every wait, for good
 
   /// Name of the node that called ready() last; empty before.
@@ -68,11 +70,11 @@ class Exchange {
 
  private:
   enum class Phase { kIdle, kAnnounced, kHandedOut, kRunOver };
-  using Code = std::uint8_t;
 
-  Code check(const pcrb_msgs::SubmitPose::Request& request, Clock::time_point arrival,
-             std::string& message) const;
-  Code checkPose(const pcrb_msgs::SubmitPose::Request& request, std::string& message) const;
+  std::optional<Rejection> check(const pcrb_msgs::SubmitPose::Request& request,
+                                 Clock::time_point arrival) const;
+  bool isElsewhere(const pcrb_msgs::SubmitPose::Request& request) const;
+  Rejection noTransform(const pcrb_msgs::SubmitPose::Request& request) const;
   std::optional<Transform> toTarget(const pcrb_msgs::SubmitPose::Request& request) const;
   void accept(const pcrb_msgs::SubmitPose::Request& request, Clock::time_point arrival,
               const std::optional<Transform>& T_target_frame);
@@ -96,6 +98,7 @@ class Exchange {
   std::string client_;
   std::string last_rejection_;
   std::uint32_t rejected_ = 0;
+  int looking_up_ = 0;  ///< replies that wait for tf
   std::optional<Reply> reply_;
   std::map<std::string, bool> ended_;  ///< id → whether a reply had been accepted
 };

@@ -1,7 +1,6 @@
 #include "server/problem_loader.hpp"
 
 #include <filesystem>
-#include <set>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_hash.hpp"
@@ -16,6 +15,23 @@ constexpr std::size_t kAhead = 2;  // problems prepared before they are asked fo
 
 CloudCache::Key cacheKey(const std::string& path, const Eigen::Vector3d& origin) {
   return {path, {origin.x(), origin.y(), origin.z()}};
+}
+
+std::pair<std::string, Kind> sequenceOf(const ProblemKey& key) {
+  return {key.data_set + "/" + key.sequence, key.kind};
+}
+
+double turnOf(const PlannedProblem& planned) { return rotationAngle(planned.P.linear()); }
+
+/// Runs something that concerns a problem; its errors name the problem.
+template <typename Body>
+void naming(const PlannedProblem& planned, const Body& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    throw InvalidProblem(sequenceOf(planned.key).first + ", problem " + planned.key.problem_id +
+                         ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -38,10 +54,22 @@ ProblemLoader::~ProblemLoader() {
 }
 
 void ProblemLoader::checkFrames() {
-  std::set<std::pair<std::string, Kind>> seen;
+  std::map<std::pair<std::string, Kind>, std::size_t> most_turned;
   for (std::size_t i = 0; i < problems_.size(); ++i) {
     const ProblemKey& key = problems_[i].key;
-    if (seen.insert({key.data_set + "/" + key.sequence, key.kind}).second) prepare(i);
+    std::size_t& chosen = most_turned.emplace(sequenceOf(key), i).first->second;
+    if (turnOf(problems_[i]) > turnOf(problems_[chosen])) chosen = i;
+  }
+  for (const auto& [sequence, position] : most_turned) checkFramesOfSource(prepare(position));
+}
+
+void ProblemLoader::checkFramesOfSource(const PreparedProblem& loaded) {
+  const Eigen::Vector3d centroid =
+      loaded.source->metric->centroid() + loaded.source->cloud.local_origin;
+  for (const auto& planned : problems_) {
+    if (planned.source_path != loaded.planned->source_path) continue;
+    naming(planned,
+           [&] { checkFrame(planned.P, centroid, planned.data_set->bounds(planned.key.kind)); });
   }
 }
 
@@ -111,13 +139,8 @@ std::shared_ptr<LoadedCloud> ProblemLoader::loadSource(const std::string& path,
 PreparedProblem ProblemLoader::prepare(std::size_t position) {
   PreparedProblem prepared;
   prepared.planned = &problems_[position];
-  try {
-    pose(prepared, position == 0 ? "" : problems_[position - 1].target_path);
-  } catch (const Error& error) {
-    const ProblemKey& key = prepared.planned->key;
-    throw InvalidProblem(key.data_set + "/" + key.sequence + ", problem " + key.problem_id + ": " +
-                         error.what());
-  }
+  naming(*prepared.planned,
+         [&] { pose(prepared, position == 0 ? "" : problems_[position - 1].target_path); });
   return prepared;
 }
 
@@ -139,8 +162,8 @@ void ProblemLoader::pose(PreparedProblem& prepared, const std::string& previous_
   }
   prepared.source_message = serializer_.serialize(source->cloud, prepared.presentation.applied,
                                                   parameters_.sourceFrame());
-  prepared.target_changed = planned.target_path != previous_target;
-  if (prepared.target_changed) {
+  prepared.publishes_target = planned.target_path != previous_target;
+  if (prepared.publishes_target) {
     prepared.target_message =
         serializer_.serialize(target->cloud, Transform::Identity(), parameters_.map_frame);
   }

@@ -27,8 +27,7 @@ struct PreparedProblem {
   std::shared_ptr<const LoadedCloud> source;
   SerializedCloud source_message;
   SerializedCloud target_message;
-  bool target_changed =
-      false;  ///< whether this target is another one than that of the problem before
+  bool publishes_target = false;  ///< whether the target published before is another one
   Presentation presentation;
   Transform P = Transform::Identity();  ///< perturbation in the local frame
   PoseError initial;                    ///< of P: what is scored without a reply
@@ -44,8 +43,9 @@ class ProblemLoader {
   ProblemLoader(const ProblemLoader&) = delete;
   ProblemLoader& operator=(const ProblemLoader&) = delete;
 
-  /// Loads the first source of each sequence and kind, so that clouds in another frame than the
-  /// problem file's are found before the run and not in the middle of it. Call before next().
+  /// Loads of each sequence and kind the source that is turned the most, and checks all its
+  /// perturbations, so that clouds in another frame than the problem file's are found before the
+  /// run and not in the middle of it. Call before next().
   /// @throws Error  naming the sequence.
   void checkFrames();
 
@@ -59,6 +59,7 @@ class ProblemLoader {
 
  private:
   PreparedProblem prepare(std::size_t position);
+  void checkFramesOfSource(const PreparedProblem& loaded);
   void pose(PreparedProblem& prepared, const std::string& previous_target);
   std::shared_ptr<LoadedCloud> loadTarget(const std::string& path);
   std::shared_ptr<LoadedCloud> loadSource(const std::string& path,

@@ -21,8 +21,13 @@ namespace {
 /// Nodes that people look with; they are not clients.
 bool isObserver(const std::string& node) {
   const std::string name = node.substr(node.rfind('/') + 1);
-  for (const char* prefix : {"rviz", "rosbag", "record", "play", "rostopic", "rosout"}) {
+  for (const char* prefix : {"rviz", "rosbag", "rostopic", "rosout"}) {
     if (name.rfind(prefix, 0) == 0) return true;
+  }
+  for (const std::string prefix : {"record_", "play_"}) {  // rosbag's, which end with a time
+    const bool is_bag = name.rfind(prefix, 0) == 0 && name.size() > prefix.size() &&
+                        name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+    if (is_bag) return true;
   }
   return false;
 }
@@ -109,7 +114,8 @@ bool Publications::hasGuess(const PreparedProblem& prepared) const {
 void Publications::announceTarget(const PreparedProblem& prepared,
                                   const Announcement& announcement) {
   const Eigen::Vector3d& origin = prepared.target->cloud.local_origin;
-  if (!origin.isZero()) {
+  is_earth_known_ |= !origin.isZero();
+  if (is_earth_known_) {
     broadcast("earth", parameters_.map_frame, Transform(Eigen::Translation3d(origin)),
               announcement.stamp, true);
   }
@@ -120,7 +126,7 @@ void Publications::announceTarget(const PreparedProblem& prepared,
 }
 
 void Publications::announce(const PreparedProblem& prepared, const Announcement& announcement) {
-  if (prepared.target_changed) announceTarget(prepared, announcement);
+  if (prepared.publishes_target) announceTarget(prepared, announcement);
   auto problem = withHeader<pcrb_msgs::Problem>(parameters_.map_frame, announcement.stamp);
   problem.problem_id = announcement.problem_id;
   problem.data_set = prepared.planned->key.data_set;

@@ -57,6 +57,7 @@ class Publications {
 
   const ServerParameters& parameters_;
   ros::Time target_stamp_;
+  bool is_earth_known_ = false;  ///< whether earth → map was broadcast before
 
   mutable std::mutex mutex_;
   std::multiset<std::string> listeners_;

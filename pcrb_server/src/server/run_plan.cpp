@@ -122,7 +122,11 @@ std::string PlannedProblem::subject() const {
 
 std::vector<PlannedProblem> inServingOrder(const std::vector<PlannedProblem>& problems,
                                            const Secret& secret) {
-  return elementsAt(problems, secretOrder(candidatesOf(problems), secret));
+  auto ordered = elementsAt(problems, secretOrder(candidatesOf(problems), secret));
+  for (std::size_t i = 1; i < ordered.size(); ++i) {
+    ordered[i].target_changed = ordered[i].target_path != ordered[i - 1].target_path;
+  }
+  return ordered;
 }
 
 }  // namespace pcrb

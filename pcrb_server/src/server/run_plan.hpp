@@ -22,6 +22,7 @@ struct PlannedProblem {
   std::shared_ptr<const Dataset> data_set;
   std::string source_path;
   std::string target_path;
+  bool target_changed = true;  ///< whether the problem served before has another target
 
   /// Names the problem where secrets are derived: unique within a run, never published.
   std::string subject() const;
@@ -40,7 +41,7 @@ struct RunPlan {
 ///                is not rigid, a missing cloud, or nothing selected.
 RunPlan makeRunPlan(const ServerParameters& parameters);
 
-/// The problems in the secret order in which they are served.
+/// The problems in the secret order in which they are served, their target_changed set.
 std::vector<PlannedProblem> inServingOrder(const std::vector<PlannedProblem>& problems,
                                            const Secret& secret);
 

@@ -18,7 +18,8 @@ namespace pcrb_tools {
 ///
 /// Single-threaded: all happens in the callbacks of the node's queue. A message's place in time
 /// does not matter: problem, target and source may arrive in any order, and before this node was
-/// started.
+/// started. Announcements are told apart by their stamps: a server that was restarted announces the
+/// problem in flight once more, under the same id.
 class RegistrationClient {
  public:
   /// Makes a method for a data set (its parameters may depend on it).
@@ -43,8 +44,8 @@ class RegistrationClient {
   std::string data_set_;        ///< that method_ was made for
   ros::Time prepared_stamp_;    ///< of the target that method_ has
   std::string target_failure_;  ///< why the method cannot use that target, else empty
-  std::string ready_id_;        ///< problem that ready was called for
-  std::string solved_id_;       ///< problem that was answered last
+  ros::Time ready_stamp_;       ///< of the problem that ready was called for
+  ros::Time solved_stamp_;      ///< of the problem that was answered last
   bool finished_ = false;
 
   pcrb_msgs::ProblemConstPtr problem_;

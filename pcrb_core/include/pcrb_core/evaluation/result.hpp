@@ -45,7 +45,7 @@ struct Result {
   std::optional<double> runtime;      ///< s, from the source's publication to the reply
   std::optional<double> solver_time;  ///< s, as the client says
   std::optional<std::uint32_t> scans_used;
-  bool target_changed = false;  ///< whether the target was published anew for this problem
+  bool target_changed = false;  ///< whether the problem before, in serving order, has another one
   std::uint32_t replies_rejected = 0;
   std::optional<Eigen::Vector3d> position;        ///< m, the accepted reply, in the target's frame
   std::optional<Eigen::Quaterniond> orientation;  ///< unit
