@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Clients that die, hang, come back, or never come."""
+import os
+import sys
+
+import rospy
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pcrb_testing_data as maths
+from pcrb_testing import Child, TestCase, executable, wait_until
+
+
+class ClientsTest(TestCase):
+
+    def setUp(self):
+        super().setUp()
+        self.data = maths.make_data_set(self.path('root'), points=300, perturbations=10)
+
+    def registration_node(self, server):
+        name = f'{server.namespace}/registration_node'
+        rospy.set_param(name, {'method': 'icp'})
+        return self.start(Child([executable('pcrb_tools', 'registration_node')], server.namespace))
+
+    def test_a_client_that_dies_and_comes_back_costs_at_most_the_problem_in_flight(self):
+        server = self.server(self.data, time_limit=2.0)
+        client = self.registration_node(server)
+        wait_until(lambda: len(server.rows()) >= 3, 'three problems are done')
+        client.kill()
+        server.wait_for_output('waiting for a client to call')
+        self.registration_node(server)
+        self.assert_ends_well(server)
+        self.assert_rows_of(server.run, self.data.of('local'))
+        outcomes = [row['outcome'] for row in server.rows()]
+        self.assertGreaterEqual(outcomes.count('replied'), len(outcomes) - 1)
+
+    def test_a_client_that_comes_while_a_problem_is_out_may_still_answer_it(self):
+        server = self.server(self.data, time_limit=60.0, sequences='kitchen')
+        early = self.client(server)
+        problem = early.next_problem()
+        early.take_source(problem)
+        late = self.client(server)
+        self.assertEqual(late.next_problem().problem_id, problem.problem_id)
+        wait_until(lambda: late.has('source', problem.header.stamp), 'the source is handed to the late one, too')
+        self.assertFalse(late.ready(problem).accepted)
+        self.assertTrue(late.submit(problem).accepted)
+
+    def test_a_client_that_hangs_times_out_at_every_problem(self):
+        server = self.server(self.data, time_limit=0.02, sequences='kitchen')
+        client = self.client(server)
+        client.serve(server, lambda client, problem: None)
+        self.assert_ends_well(server)
+        self.assert_rows_of(server.run, self.data.of('local', 'kitchen'))
+        for row in server.rows():
+            self.assertEqual((row['outcome'], row['runtime_s']), ('timed_out', None))
+            self.assertEqual(row['error'], row['initial_misalignment'])
+
+    def test_a_client_that_never_comes_is_an_error_that_names_the_service_and_who_listens(self):
+        server = self.server(self.data, connect_limit=0.5)
+        self.client(server)  # subscribes, and does not call ready
+        self.assert_fails(server, f'no client called `{server.namespace}/ready` within 0.5', rospy.get_name())
+        self.assertEqual(server.rows(), [])
+
+    def test_a_client_that_leaves_for_good_is_an_error_and_what_was_done_is_kept(self):
+        server = self.server(self.data, ready_limit=0.5)
+        client = self.client(server)
+        client.serve(server, limit=3)
+        self.assert_fails(server, 'within 0.5', 'start again with the same ~run')
+        self.assertEqual(len(server.rows()), 3)
+        server = self.start(server.again())
+        client.serve(server)
+        self.assert_ends_well(server)
+        self.assert_rows_of(server.run, self.data.of('local'))
+
+
+if __name__ == '__main__':
+    rospy.init_node('clients_test')
+    rostest.rosrun('pcrb_launch', 'clients', ClientsTest)

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""What benchmark_server refuses: parameters, run folders, data. Each time with a message that tells all."""
+import os
+import sys
+
+import numpy as np
+import rospy
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pcrb_testing_data as maths
+from pcrb_testing import Child, TestCase, executable
+
+
+class ParametersTest(TestCase):
+
+    def setUp(self):
+        super().setUp()
+        self.data = maths.make_data_set(self.path('root'), points=200)
+
+    def finished(self, server):
+        self.client(server).serve(server)
+        self.assert_ends_well(server)
+        return server
+
+    def test_all_mistakes_are_listed_at_once(self):
+        server = self.server(
+            self.data, root='/nowhere', run='', sequences=' ', kind='locl', presentation='both', subset=-1, seed=1.5,
+            shard='3/3', time_limit=0.0, connect_limit='long', handshake='maybe', global_guess='yes', linger=-1,
+            map_frame='pcrb_scan', load_threads=0, colour='red', nested={'name': 1})
+        self.assert_fails(
+            server, r'17 mistakes', r'~root: found `/nowhere`, expected an existing folder', r'~run: must be given',
+            r'~sequences: names no sequence', r'~kind: .*`locl`.* `local` or `global` or `both`',
+            r'~presentation: .*`both`', r'~subset: found `-1`', r'~seed: found `1\.5`', r'~shard: found `3/3`',
+            r'~time_limit: found `0', r'~connect_limit: found `long`, expected a number', r'~handshake: found `maybe`',
+            r'~global_guess: found `yes`, expected true or false', r'~linger: found `-1`',
+            r'~map_frame and ~scan_frame', r'~load_threads: found `0`', r'~colour: no parameter',
+            r'~nested: no parameter')
+
+    def test_a_folder_may_have_a_number_for_its_name(self):
+        run = self.path('2026')
+        server = self.server(self.data, run=run, sequences=['kitchen'])
+        self.finished(server)
+        self.assert_rows_of(run, self.data.of('local', 'kitchen'))
+
+    def test_unknown_sequences_are_refused_and_the_known_ones_named(self):
+        self.assert_fails(self.server(self.data, sequences='kitchen attic'),
+                          r'~sequences: found `attic`', r'rooms/hall rooms/kitchen')
+
+    def test_a_root_without_problems_is_refused(self):
+        os.makedirs(self.path('empty'))
+        self.assert_fails(self.server(self.data, root=self.path('empty')), r'~sequences: found `all`', 'there is none')
+        self.assert_fails(self.server(self.data, root=self.data.folder()), r'~sequences: found `all`', 'there is none')
+
+    def test_a_shard_without_problems_is_refused(self):
+        self.assert_fails(self.server(self.data, shard='99/100'), 'no problem is left')
+
+    def test_a_run_of_another_configuration_is_refused_with_the_differences_named(self):
+        server = self.finished(self.server(self.data, subset=2))
+        other = self.start(server.again(subset=3, time_limit=5.0, debug=True, sequences='kitchen'))
+        self.assert_fails(
+            other, 'holds a run of another configuration', r'subset: the run has `2`, asked for `3`',
+            r'time_limit: the run has `10`, asked for `5`', r'debug: the run has `false`, asked for `true`',
+            r'sequences: the run has `all`, asked for `kitchen`', r'hall_local.txt: not selected')
+        self.assert_ends_well(self.start(server.again()))
+
+    def test_a_run_whose_problem_file_has_changed_is_refused(self):
+        server = self.finished(self.server(self.data, subset=2))
+        path = self.data.folder('kitchen_local.txt')
+        with open(path) as file:
+            text = file.read()
+        with open(path, 'w') as file:
+            file.write(text.replace('0.7500', '0.7600', 1))
+        self.assert_fails(self.start(server.again()), r'problem_file rooms/kitchen_local.txt: the run has')
+
+    def test_a_run_whose_clouds_have_changed_is_refused(self):
+        server = self.server(self.data, sequences='kitchen')
+        self.client(server).serve(server, limit=5)
+        server.kill()
+        for name in maths.SEQUENCES['kitchen']:
+            with open(self.data.folder('kitchen', name)) as file:
+                text = file.read()
+            with open(self.data.folder('kitchen', name), 'w') as file:
+                file.write('# touched\n' + text)
+        self.assert_fails(self.start(server.again()), r'cloud rooms/kitchen/k_\d+.pcd.* changed since this run used it')
+
+    def test_a_run_folder_that_cannot_be_made_is_an_error(self):
+        with open(self.path('file'), 'w'):
+            pass
+        self.assert_fails(self.server(self.data, run=self.path('file', 'run')), self.path('file', 'run'))
+
+    def test_a_store_that_is_no_database_is_refused(self):
+        os.makedirs(self.path('run'))
+        with open(self.path('run', 'results.sqlite'), 'w') as file:
+            file.write('not a database ' * 100)
+        self.assert_fails(self.server(self.data), 'results.sqlite')
+
+    def test_a_corrupt_cloud_is_an_error_that_names_file_and_line(self):
+        path = self.data.folder('kitchen', 'k_0963.pcd')
+        with open(path) as file:
+            lines = file.readlines()
+        lines[40] = '1.0 2.0 abc\n'
+        with open(path, 'w') as file:
+            file.writelines(lines)
+        server = self.server(self.data)
+        self.client(server).serve(server)
+        self.assert_fails(server, r'k_0963.pcd:41: .*abc')
+        for row in server.rows():
+            self.assertNotIn('k_0963.pcd', (row['source'], row['target']))
+
+    def test_a_missing_cloud_is_an_error_that_names_the_row(self):
+        os.remove(self.data.folder('hall', 'h_2741.pcd'))
+        self.assert_fails(self.server(self.data), r'hall_local.txt:2: .*h_2741.pcd')
+
+    def test_a_perturbation_that_is_not_rigid_is_an_error_that_names_the_row(self):
+        problem = self.data.of('local', 'kitchen')[2]
+        problem.P[:3, :3] *= 1.00001
+        self.data.write_problems('kitchen', 'local')
+        self.assert_fails(self.server(self.data), r'kitchen_local.txt:4: .*rigid')
+
+    def test_clouds_in_another_frame_are_an_error_that_explains_it(self):
+        for name in maths.SEQUENCES['kitchen']:
+            points = self.data.clouds['kitchen', name] + np.array([300.0, 0.0, 0.0])
+            maths.write_cloud(self.data.folder('kitchen', name), points)
+        server = self.server(self.data)
+        self.assert_fails(server, 'rooms/kitchen', "in another frame than the problem file's", 'check_dataset')
+        self.assertEqual(server.rows(), [])
+
+    def test_arguments_and_masters(self):
+        server = executable('pcrb_server', 'benchmark_server')
+        nobody = 'http://127.0.0.1:9'
+        self.assert_fails(self.start(Child([server], ROS_MASTER_URI=nobody)), f'no ROS master at {nobody}')
+        self.assert_fails(self.start(Child([server, 'surplus'])), 'surplus')
+        for package, name in ('pcrb_server', 'benchmark_server'), ('pcrb_tools', 'registration_node'):
+            node = self.start(Child([executable(package, name), '--help'], ROS_MASTER_URI=nobody))
+            self.assert_ends_well(node)
+            self.assertIn('Private parameters', node.output())
+
+
+if __name__ == '__main__':
+    rospy.init_node('parameters_test')
+    rostest.rosrun('pcrb_launch', 'parameters', ParametersTest)

@@ -1,0 +1,16 @@
+"""Waiting on conditions, the only way in which the rostests wait."""
+import time
+
+LIMIT = 60.0  # s; no test waits for this long when all is well
+
+
+def wait_until(condition, what, limit=LIMIT):
+    """The condition's first true value."""
+    end = time.monotonic() + limit
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > end:
+            raise AssertionError(f'waited {limit:g} s in vain until {what}')
+        time.sleep(0.002)
