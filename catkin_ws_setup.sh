@@ -21,7 +21,7 @@ needed_debian_packages=(
   libros-rosgraph-msgs-dev librosbag-dev librostest-dev libstd-srvs-dev libtf2-dev libtf2-ros-dev
   libvisualization-msgs-dev python3-rosnode python3-rospy python3-rostest ros-base-dev rviz
   libarchive-dev libbenchmark-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
-  libnanoflann-dev libpcl-dev libsodium-dev libsqlite3-dev libyaml-cpp-dev
+  libnanoflann-dev libpcl-dev libpng-dev libsodium-dev libsqlite3-dev libyaml-cpp-dev
 )
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
 ci_debian_packages=(catkin-lint clang clang-format clang-tidy libclang-rt-14-dev locales shellcheck)

@@ -1,0 +1,135 @@
+#include "pcrb_tools/archive_reader.hpp"
+
+#include <archive.h>
+#include <archive_entry.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/text_rows.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+constexpr std::size_t kBlockSize = 1 << 18;
+
+bool endsWith(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+bool beginsLikeHtml(const std::string& path) {
+  std::array<char, 256> start{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), start.size() - 1);
+  std::string text(start.data());
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text.find("<html") != std::string::npos || text.find("<!doctype") != std::string::npos;
+}
+
+bool hasControlCharacter(const std::string& name) {
+  return std::any_of(name.begin(), name.end(),
+                     [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+}
+
+void require(int status, archive* reader, const std::string& path) {
+  if (status == ARCHIVE_OK) return;
+  const char* const what = archive_error_string(reader);
+  throw pcrb::InvalidFile(path, what == nullptr ? "cannot be read as an archive" : what);
+}
+
+}  // namespace
+
+bool isArchiveName(const std::string& path) {
+  constexpr std::array<std::string_view, 6> kEnds = {".zip",    ".tar",     ".tgz",
+                                                     ".tar.gz", ".tar.bz2", ".tar.xz"};
+  return std::any_of(kEnds.begin(), kEnds.end(),
+                     [&path](std::string_view end) { return endsWith(path, end); });
+}
+
+std::string requirePlainEntryName(const std::string& name, const std::string& archive_path) {
+  const auto refuse = [&] {
+    throw pcrb::InvalidFile(archive_path, 0, "the name " + pcrb::inQuotes(name),
+                            "names of files below the archive's own folder");
+  };
+  if (name.empty() || name.front() == '/' || name.find('\\') != std::string::npos ||
+      hasControlCharacter(name)) {
+    refuse();
+  }
+  std::string plain;
+  for (std::size_t begin = 0; begin < name.size();) {
+    const std::size_t end = std::min(name.find('/', begin), name.size());
+    const std::string part = name.substr(begin, end - begin);
+    if (part == "..") refuse();
+    if (!part.empty() && part != ".") plain += (plain.empty() ? "" : "/") + part;
+    begin = end + 1;
+  }
+  if (plain.empty()) refuse();
+  return plain;
+}
+
+ArchiveReader::ArchiveReader(const std::string& path)
+    : path_(path), archive_(archive_read_new(), &archive_read_free) {
+  if (!archive_) throw std::bad_alloc();
+  for (const auto support : {archive_read_support_format_zip, archive_read_support_format_tar,
+                             archive_read_support_filter_gzip, archive_read_support_filter_bzip2,
+                             archive_read_support_filter_xz}) {
+    require(support(archive_.get()), archive_.get(), path_);
+  }
+  if (archive_read_open_filename(archive_.get(), path_.c_str(), kBlockSize) != ARCHIVE_OK) fail();
+}
+
+ArchiveReader::~ArchiveReader() = default;
+
+bool ArchiveReader::next() {
+  archive_entry* entry = nullptr;
+  for (;;) {
+    const int status = archive_read_next_header(archive_.get(), &entry);
+    if (status == ARCHIVE_EOF) return false;
+    // A warning means a name that the locale cannot show; it is taken as UTF-8 instead.
+    if (status != ARCHIVE_OK && status != ARCHIVE_WARN) fail();
+    const char* name = archive_entry_pathname_utf8(entry);
+    if (name == nullptr) name = archive_entry_pathname(entry);
+    if (name == nullptr) fail();
+    if (archive_entry_filetype(entry) != AE_IFREG) continue;
+    name_ = requirePlainEntryName(name, path_);
+    return true;
+  }
+}
+
+std::string ArchiveReader::read(std::uint64_t max_size) {
+  std::string bytes;
+  std::size_t used = 0;
+  for (;;) {
+    bytes.resize(std::max(used + kBlockSize, used + used / 2));
+    const auto got = archive_read_data(archive_.get(), bytes.data() + used, bytes.size() - used);
+    if (got < 0) fail();
+    if (got == 0) break;
+    used += static_cast<std::size_t>(got);
+    if (used > max_size) {
+      throw pcrb::InvalidFile(path_, 0,
+                              "an entry " + pcrb::inQuotes(name_) + " of more than " +
+                                  std::to_string(max_size) + " bytes",
+                              "a scan");
+    }
+  }
+  bytes.resize(used);
+  return bytes;
+}
+
+void ArchiveReader::fail() const {
+  if (beginsLikeHtml(path_)) {
+    throw pcrb::InvalidFile(path_, 0, "an HTML page",
+                            "an archive: the download needs a confirmation in a browser");
+  }
+  const char* const what = archive_error_string(archive_.get());
+  const std::string where = name_.empty() ? "" : ", at or after the entry " + pcrb::inQuotes(name_);
+  throw pcrb::InvalidFile(
+      path_,
+      "damaged or no archive: " + std::string(what == nullptr ? "unknown format" : what) + where);
+}
+
+}  // namespace pcrb_tools

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/error.hpp"
+
+namespace pcrb_tools {
+
+/// The messages of some topics of bags, in the order in which they were recorded.
+class BagMessages {
+ public:
+  /// @throws InvalidFile  if a bag cannot be opened; a bag that was not closed is named as such.
+  explicit BagMessages(const std::vector<std::string>& paths);
+
+  std::size_t count(const std::vector<std::string>& topics) const;
+
+  /// Calls back for each message.
+  /// @throws InvalidFile  if a bag is damaged.
+  void forEach(const std::vector<std::string>& topics,
+               const std::function<void(const rosbag::MessageInstance&)>& take) const;
+
+  /// Size and time of writing of the bags, for fingerprints.
+  const std::string& identity() const { return identity_; }
+
+ private:
+  std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+  std::string paths_;
+  std::string identity_;
+};
+
+/// The message as a type.
+/// @throws InvalidFile  if it is of another type.
+template <typename Message>
+typename Message::ConstPtr messageAs(const rosbag::MessageInstance& instance) {
+  const auto message = instance.instantiate<Message>();
+  if (!message) {
+    throw pcrb::InvalidFile("topic " + instance.getTopic(), 0, instance.getDataType(),
+                            ros::message_traits::DataType<Message>::value());
+  }
+  return message;
+}
+
+}  // namespace pcrb_tools

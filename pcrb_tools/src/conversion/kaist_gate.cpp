@@ -1,0 +1,114 @@
+#include "conversion/kaist_gate.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+#include "conversion/pose_text.hpp"
+#include "pcrb_core/error.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+constexpr const char* kPoseFile = "global_pose.csv";
+constexpr const char* kLeftCalibration = "Vehicle2LeftVLP.txt";
+constexpr const char* kRightCalibration = "Vehicle2RightVLP.txt";
+
+/// Parses the file that is asked for, else the one of that name in the log.
+template <typename Parse>
+auto parseFile(const std::string& path, const LogFiles* log, const char* name, Parse parse) {
+  if (!path.empty()) return parse(pcrb::FileBytes(path).text(), path);
+  std::vector<std::size_t> found;
+  if (log != nullptr) {
+    found = log->find([name](const LogFile& file) { return file.fileName() == name; });
+  }
+  if (found.size() != 1) {
+    throw pcrb::InvalidFile(log == nullptr ? "input" : log->all().front().container, 0,
+                            std::to_string(found.size()) + " files " + name, "one");
+  }
+  return parse(log->text(found.front()), log->all()[found.front()].path());
+}
+
+/// `urban05` at the start of a text, else nothing.
+std::string urbanName(const std::string& text) {
+  constexpr std::size_t kPrefix = 5;
+  if (text.compare(0, kPrefix, "urban") != 0) return {};
+  const std::size_t end = text.find_first_not_of("0123456789", kPrefix);
+  return end == kPrefix ? std::string() : text.substr(0, end);
+}
+
+}  // namespace
+
+bool isFrameFile(const LogFile& file) {
+  const std::string name = file.fileName();
+  return name == kPoseFile || name == kLeftCalibration || name == kRightCalibration;
+}
+
+KaistFrames readFrames(const KaistRequest& request, const LogFiles* log) {
+  return {parseFile(request.left_calibration, log, kLeftCalibration, pcrb::parseKaistCalibration),
+          parseFile(request.right_calibration, log, kRightCalibration, pcrb::parseKaistCalibration),
+          parseFile(request.poses, log, kPoseFile, pcrb::parseKaistTrajectory)};
+}
+
+KaistGate::KaistGate(const KaistFrames& frames, const KaistRequest& request,
+                     const std::string& sequence, Conversion& conversion)
+    : frames_(frames),
+      request_(request),
+      sequence_(sequence),
+      conversion_(conversion),
+      limiter_(request.max_rate) {
+  if (frames.trajectory.duplicates() > 0) {
+    conversion.note(std::to_string(frames.trajectory.duplicates()) +
+                    " poses have the stamp of an earlier one and were not used");
+  }
+}
+
+std::optional<KaistGate::Pair> KaistGate::admit(pcrb::Stamp left,
+                                                std::optional<pcrb::Stamp> right) {
+  const std::string name = pcrb::kaistCloudName(sequence_, left);
+  const auto drop = [&](const std::string& reason) {
+    conversion_.drop(name, reason);
+    return std::nullopt;
+  };
+  if (!seen_.insert(left).second) return drop("the stamp of another scan");
+  if (!limiter_.keep(left)) return drop("beyond the maximal rate");
+  if (!right || std::abs(*right - left) > request_.options.max_pair_gap) {
+    return drop("no right scan close in time");
+  }
+  const auto left_pose = pcrb::kaistPose(frames_.trajectory, left, request_.options);
+  const auto right_pose = pcrb::kaistPose(frames_.trajectory, *right, request_.options);
+  if (left_pose.status != pcrb::PoseStatus::kFound) return drop(toString(left_pose.status));
+  if (right_pose.status != pcrb::PoseStatus::kFound) {
+    return drop(std::string("the right scan is ") + toString(right_pose.status));
+  }
+  const std::string origin = std::to_string(*right) + poseText(left_pose.T_world_body) +
+                             poseText(right_pose.T_world_body) + poseText(frames_.T_vehicle_left) +
+                             poseText(frames_.T_vehicle_right) +
+                             (request_.origin == pcrb::OriginPoints::kDrop ? " drop" : " keep");
+  return Pair{name, left_pose.T_world_body, right_pose.T_world_body, origin};
+}
+
+ConvertedScan mergePair(const KaistFrames& frames, const KaistGate::Pair& pair,
+                        pcrb::SensorScan left, pcrb::SensorScan right) {
+  pcrb::PointCounts counts = left.counts;
+  counts += right.counts;
+  return {pcrb::mergeScans({std::move(left), pair.T_world_vehicle_left, frames.T_vehicle_left},
+                           {std::move(right), pair.T_world_vehicle_right, frames.T_vehicle_right}),
+          counts};
+}
+
+std::string kaistSequence(const KaistRequest& request, const std::string& path) {
+  if (!request.sequence.empty()) return request.sequence;
+  std::string found;
+  for (const auto& part : std::filesystem::absolute(path).lexically_normal()) {
+    const std::string name = urbanName(part.string());
+    if (!name.empty()) found = name;
+  }
+  if (found.empty()) {
+    throw pcrb::InvalidParameter("found no name like urban05 in the path " + path +
+                                 ", expected the sequence with --sequence");
+  }
+  return found;
+}
+
+}  // namespace pcrb_tools

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/datasets/kaist.hpp"
+#include "pcrb_core/datasets/tum.hpp"
+#include "pcrb_tools/conversion/kaist_conversion.hpp"
+#include "pcrb_tools/conversion/log_files.hpp"
+
+namespace pcrb_tools {
+
+/// What places the scans of a log.
+struct KaistFrames {
+  pcrb::Transform T_vehicle_left;
+  pcrb::Transform T_vehicle_right;
+  pcrb::Trajectory trajectory;
+};
+
+/// Reads them from the files that the request names, else from the log.
+/// @param log  may be null
+KaistFrames readFrames(const KaistRequest& request, const LogFiles* log);
+
+/// Whether a file is wanted by readFrames.
+bool isFrameFile(const LogFile& file);
+
+/// Decides which scans of a KAIST log become clouds, and with which poses: the same for logs, bags
+/// and live topics.
+class KaistGate {
+ public:
+  struct Pair {
+    std::string cloud_name;
+    pcrb::Transform T_world_vehicle_left;
+    pcrb::Transform T_world_vehicle_right;
+    std::string origin;  ///< poses and options, for fingerprints
+  };
+
+  /// All must outlive it.
+  KaistGate(const KaistFrames& frames, const KaistRequest& request, const std::string& sequence,
+            Conversion& conversion);
+
+  /// How the cloud of two scans is made, or nothing: then it was dropped with the reason. Left
+  /// stamps must come in ascending order.
+  std::optional<Pair> admit(pcrb::Stamp left, std::optional<pcrb::Stamp> right);
+
+ private:
+  const KaistFrames& frames_;
+  const KaistRequest& request_;
+  std::string sequence_;
+  Conversion& conversion_;
+  pcrb::RateLimiter limiter_;
+  std::set<pcrb::Stamp> seen_;
+};
+
+/// The cloud of two scans.
+ConvertedScan mergePair(const KaistFrames& frames, const KaistGate::Pair& pair,
+                        pcrb::SensorScan left, pcrb::SensorScan right);
+
+/// The sequence's name: as asked, or `urbanNN` from a path.
+/// @throws InvalidParameter  if neither gives one.
+std::string kaistSequence(const KaistRequest& request, const std::string& path);
+
+/// The part of convertKaist for bags.
+ConversionReport convertKaistBags(const KaistRequest& request);
+
+}  // namespace pcrb_tools

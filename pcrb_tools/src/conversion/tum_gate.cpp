@@ -1,0 +1,43 @@
+#include "conversion/tum_gate.hpp"
+
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb_tools {
+
+TumGate::TumGate(const pcrb::Trajectory& trajectory, const TumOptions& options,
+                 Conversion& conversion)
+    : trajectory_(trajectory),
+      options_(options),
+      conversion_(conversion),
+      limiter_(options.max_rate) {}
+
+std::optional<pcrb::Transform> TumGate::admit(pcrb::Stamp stamp) {
+  const auto drop = [&](const std::string& reason) {
+    conversion_.drop(cloudName(stamp), reason);
+    return std::nullopt;
+  };
+  if (!seen_.insert(stamp).second) return drop("the stamp of another cloud");
+  if (!limiter_.keep(stamp)) return drop("beyond the maximal rate");
+  if (options_.nearest) return trajectory_.nearest(stamp).T_world_body;
+  const pcrb::PoseAnswer answer = trajectory_.interpolate(stamp, options_.max_gap);
+  if (answer.status != pcrb::PoseStatus::kFound) return drop(pcrb::toString(answer.status));
+  return answer.T_world_body;
+}
+
+void noteTrajectory(const pcrb::Trajectory& trajectory, Conversion& conversion) {
+  if (trajectory.duplicates() > 0) {
+    conversion.note(std::to_string(trajectory.duplicates()) +
+                    " poses have the stamp of an earlier one and were not used");
+  }
+}
+
+std::string cameraText(const pcrb::Intrinsics& intrinsics, double units_per_metre) {
+  std::string text = "camera";
+  for (const double number :
+       {intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy, units_per_metre}) {
+    text += ' ' + pcrb::formatShortest(number);
+  }
+  return text;
+}
+
+}  // namespace pcrb_tools

@@ -1,0 +1,16 @@
+#include "pcrb_tools/conversion/conversion_main.hpp"
+#include "pcrb_tools/conversion/kaist_conversion.hpp"
+#include "pcrb_tools/conversion/kaist_options.hpp"
+
+int main(int argc, char** argv) {
+  pcrb_tools::KaistRequest request;
+  CLI::App app{"Converts a sequence of the KAIST urban data set."};
+  pcrb_tools::addConversionOptions(app, request,
+                                   "Folders or archives (tgz, zip) with sensor_data, calibration "
+                                   "and global_pose.csv, or bags of "
+                                   "the two velodyne topics");
+  pcrb_tools::addKaistOptions(app, request);
+  app.footer("Example: kaist_to_pcd ~/logs/kaist/urban05 --root ~/benchmark");
+  return pcrb_tools::runConversion(app, argc, argv, request,
+                                   [&request] { return pcrb_tools::convertKaist(request); });
+}

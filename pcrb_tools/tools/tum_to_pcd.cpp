@@ -1,0 +1,18 @@
+#include "pcrb_tools/conversion/conversion_main.hpp"
+#include "pcrb_tools/conversion/tum_conversion.hpp"
+#include "pcrb_tools/conversion/tum_options.hpp"
+
+int main(int argc, char** argv) {
+  pcrb_tools::TumRequest request;
+  CLI::App app{"Converts a sequence of the TUM RGB-D data set."};
+  pcrb_tools::addConversionOptions(
+      app, request,
+      "Bags with clouds, raw bags with depth images and camera_info, or the data set's tgz or "
+      "folder with depth.txt and PNGs");
+  pcrb_tools::addTumOptions(app, request);
+  app.footer(
+      "Example: tum_to_pcd rgbd_dataset_freiburg2_pioneer_slam-2hz-with-pointclouds.bag "
+      "--root ~/benchmark");
+  return pcrb_tools::runConversion(app, argc, argv, request,
+                                   [&request] { return pcrb_tools::convertTum(request); });
+}
