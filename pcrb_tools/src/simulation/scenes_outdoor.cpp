@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "pcrb_tools/simulation/noise.hpp"
+#include "pcrb_tools/simulation/props.hpp"
+#include "pcrb_tools/simulation/scenes.hpp"
+#include "pcrb_tools/simulation/surfaces.hpp"
+
+namespace pcrb_tools::simulation {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.141592653589793;
+
+/// A ring wall around a bowl: height over the surroundings, m.
+double craterHeight(double distance, double radius) {
+  const double r = distance / radius;
+  const double bowl = r < 1.0 ? 0.22 * radius * (r * r - 1.0) : 0.0;
+  return bowl + 0.10 * radius * std::exp(-8.0 * (r - 1.0) * (r - 1.0));
+}
+
+Vector3d onGround(const SceneDescription& scene, double x, double y) {
+  return {x, y, scene.ground->height(x, y)};
+}
+
+/// Places trees at random, apart from each other and from the path.
+void plantTrees(SceneDescription& scene, int count, double reach, pcrb::Random& random) {
+  std::vector<Vector2d> stems;
+  while (static_cast<int>(stems.size()) < count) {
+    const Vector2d stem(random.uniform(-reach, reach), random.uniform(-reach, reach));
+    if (std::abs(stem.y() - woodPath(stem.x())) < 1.6) continue;
+    const bool crowded = std::any_of(stems.begin(), stems.end(), [&stem](const Vector2d& other) {
+      return (other - stem).norm() < 1.7;
+    });
+    if (crowded) continue;
+    stems.push_back(stem);
+    const double height = random.uniform(5.0, 11.0);
+    const int clumps = stem.norm() < 14.0 ? 140 : 60;
+    place(scene, makeTree(height, random.uniform(0.08, 0.24), clumps, random),
+          onGround(scene, stem.x(), stem.y()), random.uniform(0.0, 2.0 * kPi));
+  }
+}
+
+void plantBushes(SceneDescription& scene, int count, double reach, pcrb::Random& random) {
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(-reach, reach);
+    const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
+    const double y = woodPath(x) + side * random.uniform(1.3, reach);
+    const double radius = random.uniform(0.3, 1.0);
+    place(scene, makeBush(radius, static_cast<int>(70.0 * radius), random), onGround(scene, x, y));
+  }
+}
+
+void layStreet(SceneDescription& scene) {
+  const auto slab = [&scene](double y, double width, double top, const Surface& surface) {
+    scene.shapes.push_back(makeBox({50.0, y, top - 0.5}, {200.0, width, 1.0}, surface));
+  };
+  slab(0.0, 9.0, 0.0, kAsphalt);
+  for (const double side : {-1.0, 1.0}) {
+    slab(side * 5.6, 2.2, 0.13, kPavement);
+    slab(side * 26.7, 40.0, 0.10, kGrass);
+  }
+}
+
+void buildHouses(SceneDescription& scene, pcrb::Random& random) {
+  for (const double side : {-1.0, 1.0}) {
+    for (double x = -42.0; x < 140.0;) {
+      const double width = random.uniform(9.0, 15.0);
+      const double setback = random.uniform(8.6, 10.5);
+      const Surface& wall = random.uniform() < 0.4 ? kBrick : kRender;
+      place(scene, makeHouse(random.uniform(8.0, 10.0), width, random.uniform(3.2, 6.6), wall),
+            {x + 0.5 * width, side * setback, 0.1}, -0.5 * kPi * side);
+      x += width;
+      const double gap = random.uniform(2.0, 5.0);
+      scene.shapes.push_back(makeBox({x + 0.5 * gap, side * 8.2, 0.8}, {gap, 0.08, 1.4}, kWood));
+      x += gap;
+    }
+  }
+}
+
+void lineStreet(SceneDescription& scene, pcrb::Random& random) {
+  const Surface paints[] = {kSilverPaint, kRedPaint, kDarkPaint, kWhitePaint};
+  for (const double side : {-1.0, 1.0}) {
+    for (double x = -38.0; x < 138.0; x += random.uniform(6.0, 11.0)) {
+      if (random.uniform() < 0.35) continue;
+      place(scene, makeCar(paints[random.below(4)]), {x, side * random.uniform(3.4, 3.6), 0.0},
+            random.uniform(-0.04, 0.04) + (side < 0.0 ? 0.0 : kPi));
+    }
+    for (double x = -36.0; x < 138.0; x += random.uniform(9.0, 14.0)) {
+      place(scene, makeTree(random.uniform(5.0, 7.5), random.uniform(0.10, 0.18), 120, random),
+            {x, side * 6.4, 0.1}, random.uniform(0.0, 2.0 * kPi));
+    }
+    for (double x = -30.0 + 6.0 * side; x < 138.0; x += 22.0) {
+      const Vector3d foot(x, side * 4.8, 0.13);
+      scene.shapes.push_back(makeColumn(foot, 0.07, 6.0, kSteel));
+      scene.shapes.push_back(makeRod(foot + Vector3d(0.0, 0.0, 5.95),
+                                     foot + Vector3d(0.0, -1.4 * side, 6.15), 0.05, kSteel));
+    }
+    for (double x = -34.0; x < 138.0; x += random.uniform(10.0, 20.0)) {
+      place(scene, makeBush(random.uniform(0.5, 0.9), 60, random), {x, side * 7.4, 0.1});
+    }
+  }
+}
+
+}  // namespace
+
+double woodPath(double x) { return 1.4 * std::sin(x / 5.0); }
+
+SceneDescription describeWood(std::uint64_t seed) {
+  pcrb::Random random = makeStream(seed, "wood scene");
+  const std::uint64_t lattice = random.bits();
+  SceneDescription scene;
+  scene.ground.emplace(32.0, 0.12, kForestFloor, [lattice](double x, double y) {
+    return 0.9 * fractalNoise(x, y, lattice, 14.0, 3, 0.4) +
+           0.06 * fractalNoise(x, y, lattice + 100, 0.9, 2, 0.6) + 0.03 * x;
+  });
+  plantTrees(scene, 170, 26.0, random);
+  plantBushes(scene, 60, 16.0, random);
+  const auto log_end = [&scene](double x, double y) {
+    return Vector3d(onGround(scene, x, y) + Vector3d(0.0, 0.0, 0.15));
+  };
+  scene.shapes.push_back(makeRod(log_end(2.0, 4.0), log_end(5.5, 3.2), 0.20, kBark));
+  scene.shapes.push_back(makeRod(log_end(-5.0, -3.4), log_end(-2.2, -4.6), 0.16, kBark));
+  const Vector3d from = onGround(scene, -6.0, woodPath(-6.0) + 1.0);
+  const Vector3d to = onGround(scene, 3.0, woodPath(3.0) + 1.0);
+  scene.bodies.push_back({makePerson(kRedFabric), walkBetween(from, to, 1.1, 0.0)});
+  return scene;
+}
+
+SceneDescription describeSandYard(std::uint64_t seed) {
+  constexpr double kReach = 45.0;
+  pcrb::Random random = makeStream(seed, "sand yard scene");
+  const std::uint64_t lattice = random.bits();
+  SceneDescription scene;
+  scene.ground.emplace(kReach, 0.15, kSand, [lattice](double x, double y) {
+    const double ripples = 0.02 * fractalNoise(x, 3.0 * y, lattice + 100, 1.1, 2, 0.7);
+    const double craters = craterHeight(std::hypot(x - 9.0, y - 5.0), 4.5) +
+                           craterHeight(std::hypot(x + 8.0, y - 9.0), 3.0) +
+                           craterHeight(std::hypot(x + 3.0, y + 10.0), 3.8);
+    return 1.3 * fractalNoise(x, y, lattice, 16.0, 4, 0.38) + craters + ripples;
+  });
+  for (int i = 0; i < 320; ++i) {
+    const double size = 0.16 * std::pow(1.0 - random.uniform(), -0.55);  // many small, few large
+    const double reach = i < 220 ? 20.0 : kReach - 1.0;
+    const double x = random.uniform(-reach, reach);
+    const double y = random.uniform(-reach, reach);
+    const Vector3d place_of_rock = onGround(scene, x, y);
+    place(scene, makeRock(std::min(size, 1.8), random), place_of_rock,
+          random.uniform(0.0, 2.0 * kPi));
+  }
+  return scene;
+}
+
+SceneDescription describeStreet(std::uint64_t seed) {
+  pcrb::Random random = makeStream(seed, "street scene");
+  SceneDescription scene;
+  layStreet(scene);
+  buildHouses(scene, random);
+  lineStreet(scene, random);
+  const auto drive = [](double start, double y, double speed) -> Motion {
+    return [=](double time) {
+      return atPlace({start + speed * time, y, 0.0}, speed < 0.0 ? kPi : 0.0);
+    };
+  };
+  scene.bodies.push_back({makeCar(kRedPaint), drive(62.0, 1.3, -7.0)});
+  scene.bodies.push_back({makeCar(kSilverPaint), drive(16.0, -1.2, 5.0)});
+  scene.bodies.push_back(
+      {makePerson(kBlueFabric), walkBetween({0.0, -5.4, 0.13}, {30.0, -5.4, 0.13}, 1.3, 6.0)});
+  scene.bodies.push_back(
+      {makePerson(kRedFabric), walkBetween({20.0, 5.3, 0.13}, {2.0, 5.3, 0.13}, 1.2, 0.0)});
+  return scene;
+}
+
+}  // namespace pcrb_tools::simulation
