@@ -10,6 +10,7 @@ from pcrb_msgs.msg import Problem, Summary
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
@@ -128,6 +129,25 @@ class ControlTest(TestCase):
         self.assert_ends_well(server)
         self.assert_rows_of(server.run, self.data.of('local'))
         self.assertEqual({row['outcome'] for row in server.rows()}, {'replied'})
+
+    def test_the_earth_frame_follows_the_target(self):
+        origins = []  # of the map in earth, as they were broadcast
+        subscriber = rospy.Subscriber('/tf_static', TFMessage, lambda message: origins.extend(
+            t.transform.translation for t in message.transforms if t.header.frame_id == 'earth'))
+        self.addCleanup(subscriber.unregister)
+        server = self.server(self.data)
+        seen = []
+
+        def answer(client, problem):
+            is_hall = client.newest['source'].width % 10 == 5
+            x, y = (332400.0, 4151400.0) if is_hall else (0.0, 0.0)
+            wait_until(lambda: origins and (origins[-1].x, origins[-1].y) == (x, y), f'earth -> map is {x} {y}')
+            seen.append(is_hall)
+            client.submit(problem)
+
+        self.client(server).serve(server, answer)
+        self.assert_ends_well(server)
+        self.assertEqual(sorted(seen, reverse=True), seen)  # the hall first, so that it must be withdrawn
 
     def use_sim_time(self):
         rospy.set_param('/use_sim_time', True)
