@@ -13,4 +13,7 @@ namespace pcrb {
 /// @param neighbors  >= 3, at most the number of points.
 Points surfaceNormals(const KdTree& tree, std::size_t neighbors, int threads);
 
+/// The same from all points within `radius` (m); zero where they are fewer than 3.
+Points surfaceNormalsWithin(const KdTree& tree, double radius, int threads);
+
 }  // namespace pcrb
