@@ -101,5 +101,18 @@ INSTANTIATE_TEST_SUITE_P(
                       Expectation{"ppcr", "rgbd", "livingroom", "local", 8, 0.03}),
     nameOf);
 
+INSTANTIATE_TEST_SUITE_P(
+    Global, RealPairs,
+    ::testing::Values(Expectation{"ransac", "automotive", "street", "global", 1, 0.03},
+                      Expectation{"ransac", "handheld", "car", "global", 1, 0.03},
+                      Expectation{"ransac", "rgbd", "livingroom", "global", 4, 0.08},
+                      Expectation{"fgr", "automotive", "street", "global", 1, 0.015},
+                      Expectation{"fgr", "handheld", "car", "global", 1, 0.02},
+                      Expectation{"fgr", "rgbd", "livingroom", "global", 4, 0.04},
+                      Expectation{"teaser", "automotive", "street", "global", 1, 0.015},
+                      Expectation{"teaser", "handheld", "car", "global", 1, 0.02},
+                      Expectation{"teaser", "rgbd", "livingroom", "global", 4, 0.05}),
+    nameOf);
+
 }  // namespace
 }  // namespace pcrb
