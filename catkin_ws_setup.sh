@@ -4,7 +4,7 @@
 #   catkin_ws_setup.sh deps      installs the Debian packages that are missing (apt-get, as root or by sudo)
 #   catkin_ws_setup.sh build     deps, links to the packages in src/pcrb/, catkin_make
 #   catkin_ws_setup.sh test      build, then all unit tests and rostests; --long adds those that take minutes
-#   catkin_ws_setup.sh demo      build, then a benchmark run on a small synthetic sequence
+#   catkin_ws_setup.sh demo      build, then from simulated logs of four data sets to a scored run
 #   catkin_ws_setup.sh clean     removes what the others made in this checkout
 #   catkin_ws_setup.sh help      prints this text
 #
@@ -199,21 +199,51 @@ free_port() {
   /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
 }
 
+# From the four data sets' original formats to registration problems.
+prepare_sample_data() {
+  local logs=$1 data=$2 sequence planetary=$2/planetary
+  rosrun pcrb_tools make_sample_logs --output "$logs"
+  for sequence in apartment wood_summer; do
+    rosrun pcrb_tools eth_to_pcd "$logs/eth/$sequence" --root "$data"
+  done
+  for sequence in box_met p2at_met; do
+    rosrun pcrb_tools planetary_to_pcd "$logs/planetary/$sequence" --root "$data"
+  done
+  for sequence in "$logs"/tum/*.bag; do
+    rosrun pcrb_tools tum_to_pcd "$sequence" --root "$data"
+  done
+  rosrun pcrb_tools kaist_to_pcd "$logs/kaist/urban05" --root "$data"
+  for sequence in "$data"/*/*/; do
+    rosrun pcrb_tools compute_overlap "${sequence%/}"
+    rosrun pcrb_tools sample_problems "${sequence%/}"
+  done
+  rosrun pcrb_tools build_map "$planetary/box_met" -o "$planetary/p2at_met/box_map.pcd"
+  rosrun pcrb_tools compute_overlap "$planetary/p2at_met" --target box_map.pcd \
+    -o "$planetary/planetary_map_overlap.txt"
+  rosrun pcrb_tools sample_problems "$planetary/p2at_met" --map box_map.pcd \
+    --overlap "$planetary/planetary_map_overlap.txt"
+  rosrun pcrb_tools check_dataset "$data"
+}
+
 show_demo() {
   build_workspace
-  local data=$root/demo/data run=$root/demo/run
+  local logs=$root/demo/logs data=$root/demo/data run=$root/demo/run
   rm -rf "$root/demo"
+  mkdir -p "$root/demo"
   set +u
   # shellcheck source=/dev/null
   . "$root/devel/setup.bash"
   set -u
-  say "demo: simulate a sequence in $data"
-  rosrun pcrb_tools make_demo_sequence "$data" || fail "the sequence could not be made, see above"
-  say "demo: benchmark G-ICP on it, over ROS topics"
+  say "demo: simulate logs in the original formats of four data sets, and make registration problems of them"
+  # A function called in a condition would go on after a failed command, so it is not.
+  (prepare_sample_data "$logs" "$data") >"$root/demo/prepare.log" 2>&1 &
+  wait $! || { tail -5 "$root/demo/prepare.log" >&2; fail "the data could not be prepared, see above"; }
+  say "demo: prepared $(find "$data" -name '*_local.txt' | wc -l) sequences; every step is in demo/prepare.log"
+  say "demo: benchmark G-ICP on 160 of their problems, over ROS topics"
   export ROS_MASTER_URI
   ROS_MASTER_URI=http://127.0.0.1:$(free_port)
-  roslaunch pcrb_launch benchmark.launch root:="$data" run:="$run" sequences:=hall kind:=local method:=gicp ||
-    fail "roslaunch failed, see above"
+  roslaunch pcrb_launch benchmark.launch root:="$data" run:="$run" kind:=local method:=gicp subset:=160 \
+    time_limit:=30 || fail "roslaunch failed, see above"
   # roslaunch succeeds whatever became of its nodes; the summary is there only if every problem has its result.
   [ -s "$run/summary.txt" ] || fail "the run did not finish, see above"
   say "demo: done; $run has results.csv, results.sqlite and this summary.txt:"
