@@ -119,6 +119,10 @@ void Publications::announceTarget(const PreparedProblem& prepared,
     broadcast("earth", parameters_.map_frame, Transform(Eigen::Translation3d(origin)),
               announcement.stamp, true);
   }
+  // For people who look: a frame in the middle of the target, wherever the local origin is.
+  broadcast(parameters_.map_frame, "pcrb_target",
+            Transform(Eigen::Translation3d(centroid(prepared.target->cloud))), announcement.stamp,
+            true);
   target_stamp_ = announcement.stamp;
   SerializedCloud target = prepared.target_message;
   target.setStamp(announcement.stamp);
