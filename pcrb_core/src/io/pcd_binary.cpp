@@ -26,29 +26,18 @@ double loadFloat(const PcdField& field, const char* bytes) {
   return field.size == 4 ? load<float>(bytes) : load<double>(bytes);
 }
 
-double loadSigned(const PcdField& field, const char* bytes) {
+/// An integer of 1, 2, 4 or 8 bytes.
+template <typename One, typename Two, typename Four, typename Eight>
+double loadInteger(const PcdField& field, const char* bytes) {
   switch (field.size) {
     case 1:
-      return load<std::int8_t>(bytes);
+      return load<One>(bytes);
     case 2:
-      return load<std::int16_t>(bytes);
+      return load<Two>(bytes);
     case 4:
-      return load<std::int32_t>(bytes);
+      return load<Four>(bytes);
     default:
-      return load<std::int64_t>(bytes);
-  }
-}
-
-double loadUnsigned(const PcdField& field, const char* bytes) {
-  switch (field.size) {
-    case 1:
-      return load<std::uint8_t>(bytes);
-    case 2:
-      return load<std::uint16_t>(bytes);
-    case 4:
-      return load<std::uint32_t>(bytes);
-    default:
-      return load<std::uint64_t>(bytes);
+      return load<Eight>(bytes);
   }
 }
 
@@ -60,9 +49,11 @@ struct Column {
 
   double at(std::size_t i) const {
     const char* const bytes = first + i * stride;
-    return field.type == 'F'   ? loadFloat(field, bytes)
-           : field.type == 'I' ? loadSigned(field, bytes)
-                               : loadUnsigned(field, bytes);
+    if (field.type == 'F') return loadFloat(field, bytes);
+    if (field.type == 'I') {
+      return loadInteger<std::int8_t, std::int16_t, std::int32_t, std::int64_t>(field, bytes);
+    }
+    return loadInteger<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>(field, bytes);
   }
 };
 

@@ -13,6 +13,13 @@
 namespace pcrb {
 namespace {
 
+/// The representation, which tells -0 from 0.
+std::uint64_t bitsOf(double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
 TEST(Number, ReadsEveryDecimalNotation) {
   EXPECT_EQ(parseDouble("8045123.123456789"), 8045123.123456789);
   EXPECT_EQ(parseDouble("-1.5e-3"), -0.0015);
@@ -55,7 +62,7 @@ TEST(Number, ShortestTextReadsBackToTheSameBits) {
     if (!std::isfinite(value)) continue;
     const auto back = parseDouble(formatShortest(value));
     ASSERT_TRUE(back) << formatShortest(value);
-    ASSERT_EQ(std::memcmp(&value, &*back, sizeof(value)), 0) << formatShortest(value);
+    ASSERT_EQ(bitsOf(*back), pattern) << formatShortest(value);
   }
   EXPECT_EQ(formatShortest(0.1), "0.1");
   EXPECT_EQ(formatShortest(8045123.123456789), "8045123.123456789");
@@ -70,7 +77,7 @@ void expectScansLikeFromChars(const std::string& number) {
   double value = 0.0;
   const char* const behind = scanDouble(text.data(), text.data() + text.size(), value);
   ASSERT_EQ(behind, result.ptr) << number;
-  ASSERT_EQ(std::memcmp(&value, &expected, sizeof(value)), 0) << number;
+  ASSERT_EQ(bitsOf(value), bitsOf(expected)) << number;
 }
 
 TEST(Number, ScanningALongTextGivesTheNearestDouble) {

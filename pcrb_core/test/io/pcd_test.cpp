@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <initializer_list>
 #include <random>
@@ -26,9 +25,11 @@ const Points kTwoPoints = {{1, 2, 3}, {4, 5, 6}};
 
 template <typename Value>
 std::string bytesOf(std::initializer_list<Value> values) {
-  std::string bytes(values.size() * sizeof(Value), '\0');
-  std::memcpy(bytes.data(), values.begin(), bytes.size());
-  return bytes;
+  return {reinterpret_cast<const char*>(values.begin()), values.size() * sizeof(Value)};
+}
+
+std::string bytesOf(const Points& points) {
+  return {reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Points::value_type)};
 }
 
 /// A cloud of a few hundred kilobytes, which several threads share.
@@ -168,7 +169,7 @@ TEST(Pcd, DoublesOfAnyMagnitudeSurviveWritingAndReading) {
   writePcd(folder.file("a.pcd"), cloud);
   const DatasetCloud back = readPcd(folder.file("a.pcd"));
   ASSERT_EQ(back.points.size(), cloud.points.size());
-  EXPECT_EQ(std::memcmp(back.points.data(), cloud.points.data(), 24 * cloud.points.size()), 0);
+  EXPECT_EQ(bytesOf(back.points), bytesOf(cloud.points));  // which tells -0 from 0
   EXPECT_EQ(back.viewpoint.translation(), cloud.viewpoint.translation());
   EXPECT_LT((back.viewpoint.linear() - cloud.viewpoint.linear()).norm(), 1e-15);
 }

@@ -7,7 +7,7 @@
 namespace pcrb {
 
 struct PcdReadOptions {
-  int threads = 1;  ///< >= 1; the result does not depend on it
+  int threads = 1;  ///< >= 1, for ascii; the result does not depend on it
 };
 
 /// Reads a PCD file: ascii, binary or binary_compressed; any extra or padding (`_`) fields; SIZE 4
@@ -15,9 +15,12 @@ struct PcdReadOptions {
 ///
 /// Coordinates are read as double. Points with a NaN or infinite coordinate are left out and
 /// counted. The field `intensity` is kept where the file has one; VIEWPOINT becomes `viewpoint`.
-/// Memory is bounded by the file's size, whatever its header claims.
+/// Memory is bounded by the file's size, whatever its header claims. What changes no point is let
+/// pass: any order of header entries, missing VERSION, COUNT (1) or VIEWPOINT, empty lines behind
+/// the last row, zeros that fill binary data up to a page (old versions of PCL wrote them).
 ///
-/// @throws InvalidFile  with file and line, what was found and what was expected.
+/// @throws InvalidFile       with file and line, what was found and what was expected.
+/// @throws InvalidParameter  if threads < 1.
 DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options = {});
 
 /// The same from memory; `name` stands for the path in messages.
@@ -29,7 +32,7 @@ DatasetCloud parsePcd(const char* begin, const char* end, const std::string& nam
 /// `viewpoint`.
 ///
 /// Writes to a temporary name in the same folder, then renames. Intensity is not written.
-/// @throws InvalidFile  if the file cannot be written completely.
+/// @throws InvalidFile  if the file cannot be written completely, or a point is not finite.
 void writePcd(const std::string& path, const DatasetCloud& cloud);
 
 }  // namespace pcrb
