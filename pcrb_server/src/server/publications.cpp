@@ -36,6 +36,15 @@ std::uint8_t kindNumber(Kind kind) {
   return kind == Kind::kLocal ? pcrb_msgs::Problem::LOCAL : pcrb_msgs::Problem::GLOBAL;
 }
 
+/// Where people look, wherever the local origin is: the middle of the target's bounding box, in
+/// whole metres. Not its centroid, which is the secret pose of a scan without a viewpoint when the
+/// same cloud is another problem's source.
+Eigen::Vector3d middleOf(const PointCloud& target) {
+  Eigen::AlignedBox3f box;
+  for (const auto& point : target.points) box.extend(point);
+  return box.center().cast<double>().array().round();
+}
+
 template <typename Message>
 Message withHeader(const std::string& frame, const ros::Time& stamp) {
   Message message;
@@ -119,9 +128,8 @@ void Publications::announceTarget(const PreparedProblem& prepared,
     broadcast("earth", parameters_.map_frame, Transform(Eigen::Translation3d(origin)),
               announcement.stamp, true);
   }
-  // For people who look: a frame in the middle of the target, wherever the local origin is.
   broadcast(parameters_.map_frame, "pcrb_target",
-            Transform(Eigen::Translation3d(centroid(prepared.target->cloud))), announcement.stamp,
+            Transform(Eigen::Translation3d(middleOf(prepared.target->cloud))), announcement.stamp,
             true);
   target_stamp_ = announcement.stamp;
   SerializedCloud target = prepared.target_message;
