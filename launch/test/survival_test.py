@@ -37,7 +37,7 @@ class SurvivalTest(TestCase):
 
     def prepared_run(self, name):
         """A run folder whose secret is drawn, and none of whose problems is done."""
-        server = self.server(self.data, namespace=NAMESPACE, run=self.path(name), autostart=False)
+        server = self.server(self.data, namespace=NAMESPACE, run=self.path(name), autostart=False, linger=30.0)
         server.wait_for_output('0/60 problems')
         server.kill()
         return server

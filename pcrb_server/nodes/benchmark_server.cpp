@@ -21,7 +21,7 @@ const pcrb::NodeHelp kHelp{"benchmark_server",
   global_guess (false)  give an initial guess for global problems too
   upright (false)   localization without VIEWPOINT: turn scans about z only; gives the tilt away
   autostart (true)  false: wait for ~start
-  linger (1)        s that the summary stays up at the end
+  linger (5)        s that the summary stays up at the end, unless its readers have left before
   cache_memory_mb (2048), load_threads (1)
   map_frame (map), scan_frame (pcrb_scan), publish_tf (true)
   debug (false)     publish the truth on debug/*; marks the run

@@ -223,6 +223,17 @@ Result BenchmarkServer::score(const PreparedProblem& prepared, const Reply& repl
   return result;
 }
 
+void BenchmarkServer::waitForReaders() {
+  const auto end = Exchange::Clock::now() + std::chrono::duration<double>(parameters_.linger);
+  bool had_readers = false;
+  while (!shutdown_.requested() && Exchange::Clock::now() < end) {
+    const bool has_readers = publications_.hasSummaryReaders();
+    if (had_readers && !has_readers) return;  // clients have read it and ended
+    had_readers = has_readers;
+    std::this_thread::sleep_for(kPollPeriod);
+  }
+}
+
 bool BenchmarkServer::conclude() {
   exchange_.endRun();
   const auto summaries = record_.summary();
@@ -235,10 +246,7 @@ bool BenchmarkServer::conclude() {
               << " problems have a result; start again with the same ~run to go on" << std::endl;
   }
   publications_.summary(summaries, is_finished);
-  const auto end = Exchange::Clock::now() + std::chrono::duration<double>(parameters_.linger);
-  while (is_finished && !shutdown_.requested() && Exchange::Clock::now() < end) {
-    std::this_thread::sleep_for(kPollPeriod);
-  }
+  if (is_finished) waitForReaders();
   return is_finished;
 }
 

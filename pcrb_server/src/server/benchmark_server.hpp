@@ -51,6 +51,7 @@ class BenchmarkServer {
   bool waitForClient();
   Result score(const PreparedProblem& prepared, const Reply& reply) const;
   Announcement nextAnnouncement(const PreparedProblem& prepared);
+  void waitForReaders();
   bool conclude();
 
   const ServerParameters& parameters_;

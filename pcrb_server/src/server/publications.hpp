@@ -43,6 +43,8 @@ class Publications {
 
   void summary(const std::vector<SequenceSummary>& summaries, bool finished);
 
+  bool hasSummaryReaders() const { return summary_.getNumSubscribers() > 0; }
+
   /// Nodes that listen to `problem`; those that only watch (rviz, rosbag, rostopic) excepted.
   std::set<std::string> listeners() const;
 

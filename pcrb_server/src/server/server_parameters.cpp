@@ -60,7 +60,7 @@ void readProtocol(NodeParameters& reader, ServerParameters& parameters) {
   parameters.time_limit = reader.number("time_limit", 10.0, 1e-3, kForever);
   parameters.connect_limit = reader.number("connect_limit", 60.0, 0.1, kForever);
   parameters.ready_limit = reader.number("ready_limit", 60.0, 0.1, kForever);
-  parameters.linger = reader.number("linger", 1.0, 0.0, 3600.0);
+  parameters.linger = reader.number("linger", 5.0, 0.0, 3600.0);
   parameters.global_guess = reader.boolean("global_guess", false);
   parameters.upright = reader.boolean("upright", false);
   parameters.debug = reader.boolean("debug", false);

@@ -29,7 +29,7 @@ struct ServerParameters {
   bool upright = false;
   bool debug = false;
   bool autostart = true;
-  double linger = 1.0;  ///< s that the summary stays up at the end
+  double linger = 5.0;  ///< s that the summary stays up at the end, unless its readers have left
   std::size_t cache_bytes = 0;
   int load_threads = 1;
   std::string map_frame;
