@@ -46,47 +46,50 @@ class SurvivalTest(TestCase):
         shutil.copytree(server.run, self.path(name))
         return self.path(name)
 
-    def kill_at_a_random_moment(self, server, moments):
-        """Some time after its start, or after some more problems. Returns whether it was alive."""
-        if moments.random() < 0.3:
-            end = time.monotonic() + moments.uniform(0, 0.4)
-            wait_until(lambda: server.ended() or time.monotonic() > end, 'the moment comes')
-        else:
+    def wait_for_a_random_moment(self, server, moments, is_over):
+        """Some time after the server's start, or after some more problems; or until it is over."""
+        delay = moments.uniform(0, 0.4)
+        if moments.random() < 0.7:
             count = len(server.rows()) + moments.randint(0, 4)
-            wait_until(lambda: server.ended() or len(server.rows()) >= count, 'some more problems are done')
-            end = time.monotonic() + moments.uniform(0, 0.02)
-            wait_until(lambda: server.ended() or time.monotonic() > end, 'the moment comes')
-        was_alive = not server.ended()
-        server.kill()
-        return was_alive
+            wait_until(lambda: is_over() or len(server.rows()) >= count, 'some more problems are done')
+            delay /= 20
+        end = time.monotonic() + delay
+        wait_until(lambda: is_over() or time.monotonic() > end, 'the moment comes')
+
+    def play_with_kills(self, fresh, run, moments, kills):
+        """Plays a run to its end, killing the server up to `kills` times; numbers of rows at the kills."""
+        client = self.minimal_client()
+        killed_at = []
+        server = self.start(fresh.again(autostart=True, run=run, linger=60.0))
+        while len(killed_at) < kills and not client.ended():
+            self.wait_for_a_random_moment(server, moments, client.ended)
+            server.kill()
+            killed_at.append(len(rows(run)))
+            server = self.start(server.again())
+        self.assert_ends_well(client)
+        server.wait_for_output('60/60 problems')
+        server.interrupt()
+        self.assert_ends_well(server)
+        self.assertLessEqual(len(sessions(run)), len(killed_at) + 2)  # the first one made the fresh run
+        return killed_at
 
     def test_a_run_with_kills_equals_one_without(self):
         fresh = self.prepared_run('fresh')
-        whole = self.start(fresh.again(autostart=True, run=self.copy_of(fresh, 'whole')))
-        self.assert_ends_well(self.minimal_client())
-        self.assert_ends_well(whole)
-        expected = without_times(whole.run)
-        self.assertEqual(len(expected), len(self.problems))
         moments = random.Random(7)
-        kills, runs, midway = 0, 0, 0
-        while kills < KILLS:
+        whole = self.copy_of(fresh, 'whole')
+        self.play_with_kills(fresh, whole, moments, 0)
+        expected = without_times(whole)
+        self.assertEqual(len(expected), len(self.problems))
+        killed_at, runs = [], 0
+        while len(killed_at) < KILLS:
             runs += 1
             run = self.copy_of(fresh, f'killed{runs}')
-            client, starts = self.minimal_client(), 1  # one that made the fresh one
-            done = False
-            while not done:
-                server = self.start(fresh.again(autostart=True, run=run))
-                starts += 1
-                done = kills == KILLS or not self.kill_at_a_random_moment(server, moments)
-                kills += not done
-                midway += not done and 0 < len(rows(run)) < len(expected)
-            self.assert_ends_well(server)
-            self.assert_ends_well(client)
+            killed_at += self.play_with_kills(fresh, run, moments, KILLS - len(killed_at))
             self.assertEqual(without_times(run), expected)
-            self.assertEqual(run_info(run), run_info(whole.run))
-            self.assertLessEqual(len(sessions(run)), starts)
-        self.assertGreater(midway, KILLS / 4)
-        print(f'{kills} kills in {runs} runs, {midway} of them with some but not all problems done', flush=True)
+            self.assertEqual(run_info(run), run_info(whole))
+        midway = sum(0 < count < len(expected) for count in killed_at)
+        self.assertGreater(midway, KILLS / 2)
+        print(f'{KILLS} kills in {runs} runs, {midway} of them with some but not all problems done', flush=True)
 
     def test_registration_node_goes_on_with_a_server_that_was_killed(self):
         rospy.set_param(f'{NAMESPACE}/registration_node', {'method': 'icp'})
