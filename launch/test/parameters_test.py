@@ -9,7 +9,7 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, executable
+from pcrb_testing import Child, TestCase, executable, rows
 
 
 class ParametersTest(TestCase):
@@ -37,11 +37,14 @@ class ParametersTest(TestCase):
             r'~map_frame and ~scan_frame', r'~load_threads: found `0`', r'~colour: no parameter',
             r'~nested: no parameter')
 
-    def test_a_folder_may_have_a_number_for_its_name(self):
-        run = self.path('2026')
-        server = self.server(self.data, run=run, sequences=['kitchen'])
-        self.finished(server)
-        self.assert_rows_of(run, self.data.of('local', 'kitchen'))
+    def test_folders_and_sequences_may_have_numbers_for_their_names(self):
+        """roslaunch and rosrun turn such text into a number."""
+        os.rename(self.data.folder('kitchen'), self.data.folder('1984'))
+        os.rename(self.data.folder('kitchen_local.txt'), self.data.folder('1984_local.txt'))
+        server = self.server(self.data, folder=self.folder, run=2026, sequences=1984)
+        self.client(server).serve(server)
+        self.assert_ends_well(server)
+        self.assertEqual({row['sequence'] for row in rows(self.path('2026'))}, {'1984'})
 
     def test_unknown_sequences_are_refused_and_the_known_ones_named(self):
         self.assert_fails(self.server(self.data, sequences='kitchen attic'),
@@ -93,7 +96,7 @@ class ParametersTest(TestCase):
         os.makedirs(self.path('run'))
         with open(self.path('run', 'results.sqlite'), 'w') as file:
             file.write('not a database ' * 100)
-        self.assert_fails(self.server(self.data), 'results.sqlite')
+        self.assert_fails(self.server(self.data), 'results.sqlite: .*not a database')
 
     def test_a_corrupt_cloud_is_an_error_that_names_file_and_line(self):
         path = self.data.folder('kitchen', 'k_0963.pcd')

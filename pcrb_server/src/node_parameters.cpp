@@ -1,6 +1,7 @@
 #include "pcrb_server/node_parameters.hpp"
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
@@ -15,6 +16,14 @@ std::string describe(XmlRpc::XmlRpcValue value) {
   value.write(text);
   text << '`';
   return text.str();
+}
+
+/// A text parameter. roslaunch and rosrun turn a folder named 2026 into a number, which is taken
+/// back here; leading zeros are lost, unless a launch file gives the parameter type="str".
+std::optional<std::string> textOf(XmlRpc::XmlRpcValue& value) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return std::string(value);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return std::to_string(int(value));
+  return std::nullopt;
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -55,9 +64,7 @@ void NodeParameters::mistake(const std::string& name, const XmlRpc::XmlRpcValue&
 std::string NodeParameters::string(const std::string& name, const std::string& fallback) {
   XmlRpc::XmlRpcValue value;
   if (!find(name, value)) return fallback;
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return value;
-  // roslaunch and rosrun turn a folder named 2026 into a number: take it back as it was written.
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return std::to_string(int(value));
+  if (const auto text = textOf(value)) return *text;
   mistake(name, value, "text");
   return fallback;
 }
@@ -115,7 +122,7 @@ std::vector<std::string> NodeParameters::words(const std::string& name,
                                                const std::string& fallback) {
   XmlRpc::XmlRpcValue value;
   if (!find(name, value)) return split(fallback);
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return split(value);
+  if (const auto text = textOf(value)) return split(*text);
   std::vector<std::string> words;
   if (value.getType() == XmlRpc::XmlRpcValue::TypeArray) {
     for (int i = 0; i < value.size(); ++i) {
