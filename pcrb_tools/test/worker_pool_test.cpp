@@ -32,6 +32,14 @@ TEST(WorkerPool, ThrowsWhatAJobHasThrownAndDropsTheRest) {
   EXPECT_THROW(pool.submit([] {}), pcrb::InvalidParameter);
 }
 
+TEST(WorkerPool, TellsOfAFailureToWhoeverAsks) {
+  WorkerPool pool(1, 1);
+  EXPECT_NO_THROW(pool.check());
+  pool.submit([] { throw pcrb::InvalidParameter("scan 3 is bad"); });
+  EXPECT_THROW(pool.finish(), pcrb::InvalidParameter);
+  EXPECT_THROW(pool.check(), pcrb::InvalidParameter);
+}
+
 TEST(WorkerPool, TakesNoMoreJobsThanMayWait) {
   std::promise<void> gate;
   const std::shared_future<void> open = gate.get_future().share();

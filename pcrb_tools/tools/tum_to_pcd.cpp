@@ -1,8 +1,10 @@
 #include "pcrb_tools/conversion/conversion_main.hpp"
+#include "pcrb_tools/conversion/live_node.hpp"
 #include "pcrb_tools/conversion/tum_conversion.hpp"
 #include "pcrb_tools/conversion/tum_options.hpp"
 
 int main(int argc, char** argv) {
+  if (pcrb_tools::takeLiveFlag(argc, argv)) return pcrb_tools::runTumNode(argc, argv);
   pcrb_tools::TumRequest request;
   CLI::App app{"Converts a sequence of the TUM RGB-D data set."};
   pcrb_tools::addConversionOptions(
@@ -12,7 +14,8 @@ int main(int argc, char** argv) {
   pcrb_tools::addTumOptions(app, request);
   app.footer(
       "Example: tum_to_pcd rgbd_dataset_freiburg2_pioneer_slam-2hz-with-pointclouds.bag "
-      "--root ~/benchmark");
+      "--root ~/benchmark\n"
+      "As a node, on what rosbag play or a camera publishes: --live (--live --help)");
   return pcrb_tools::runConversion(app, argc, argv, request,
                                    [&request] { return pcrb_tools::convertTum(request); });
 }

@@ -113,6 +113,18 @@ std::optional<std::uint64_t> numberBetween(std::string_view text, std::string_vi
   return parseUnsigned(text.substr(prefix.size(), text.size() - prefix.size() - suffix.size()));
 }
 
+bool startsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+bool isNamedAfter(std::string_view file_name, const EthSequence& sequence) {
+  if (startsWith(file_name, sequence.log_name)) return true;
+  if (!startsWith(file_name, sequence.name)) return false;
+  const std::string_view rest = file_name.substr(sequence.name.size());
+  return rest.empty() || rest[0] == '.' || rest[0] == '-' ||
+         (rest[0] == '_' && rest.size() > 1 && rest[1] >= '0' && rest[1] <= '9');
+}
+
 }  // namespace
 
 std::optional<EthScanName> parseEthScanName(std::string_view file_name) {
@@ -173,6 +185,13 @@ const std::vector<EthSequence>& ethSequences() {
       {"wood_autumn", "wood_autumn_09-Dec-2011-15_44_05", 32},
       {"wood_summer", "wood_summer_25-Aug-2011-13_00_30", 37}};
   return sequences;
+}
+
+std::string ethSequenceName(std::string_view file_name) {
+  for (const auto& sequence : ethSequences()) {
+    if (isNamedAfter(file_name, sequence)) return sequence.name;
+  }
+  return {};
 }
 
 }  // namespace pcrb

@@ -138,6 +138,13 @@ DatasetCloud mergeScans(PlacedScan left, PlacedScan right) {
   return cloud;
 }
 
+std::string kaistSequenceName(std::string_view file_name) {
+  constexpr std::string_view kPrefix = "urban";
+  if (file_name.substr(0, kPrefix.size()) != kPrefix) return {};
+  const std::size_t end = file_name.find_first_not_of("0123456789", kPrefix.size());
+  return end == kPrefix.size() ? std::string() : std::string(file_name.substr(0, end));
+}
+
 std::string kaistCloudName(const std::string& sequence, Stamp left_stamp) {
   return sequence + '_' + std::to_string(left_stamp) + ".pcd";
 }

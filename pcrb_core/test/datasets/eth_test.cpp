@@ -118,6 +118,17 @@ TEST(EthNames, SayFrameAndNumber) {
   EXPECT_EQ(ethCloudName(7), "PointCloud7.pcd");
 }
 
+TEST(EthNames, SequenceOfAFolderOrArchive) {
+  EXPECT_EQ(ethSequenceName("plain"), "plain");
+  EXPECT_EQ(ethSequenceName("plain.zip"), "plain");
+  EXPECT_EQ(ethSequenceName("plain_01-Sep-2011-16_39_18"), "plain");
+  EXPECT_EQ(ethSequenceName("ETH_hauptgebaude_23-Aug-2011-18_43_49.zip"), "hauptgebaude");
+  EXPECT_EQ(ethSequenceName("wood_summer_25-Aug-2011-13_00_30"), "wood_summer");
+  for (const char* name : {"plain_text", "plains", "explain", "csv_global", ""}) {
+    EXPECT_EQ(ethSequenceName(name), "") << name;
+  }
+}
+
 TEST(EthNames, PublishedSequencesHaveTheirScanCounts) {
   std::size_t scans = 0;
   for (const auto& sequence : ethSequences()) scans += sequence.scan_count;

@@ -185,6 +185,15 @@ TEST(KaistNames, CloudIsNamedByTheLeftStamp) {
   EXPECT_EQ(kaistCloudName("urban05", 1519102894479453000), "urban05_1519102894479453000.pcd");
 }
 
+TEST(KaistNames, SequenceOfAFolderOrArchive) {
+  EXPECT_EQ(kaistSequenceName("urban05-highway"), "urban05");
+  EXPECT_EQ(kaistSequenceName("urban05_data.tgz"), "urban05");
+  EXPECT_EQ(kaistSequenceName("urban05"), "urban05");
+  for (const char* name : {"urban", "urban-05", "suburban05", ""}) {
+    EXPECT_EQ(kaistSequenceName(name), "") << name;
+  }
+}
+
 TEST(KaistFiles, AreReadAlikeUnderALocaleWithDecimalComma) {
   const pcrb_test::DecimalComma comma;
   EXPECT_EQ(parseKaistCalibration(kCalibration, "c.txt").translation().z(), 1.90953);

@@ -17,6 +17,7 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/problem/pair_sampling.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -24,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRecordFile = ".conversion";
-constexpr const char* kMapName = "box_map.pcd";
 constexpr std::size_t kRecordFields = 7;
 
 [[noreturn]] void throwSystemError(const std::string& path, const char* action) {
@@ -146,7 +146,7 @@ void CloudFolder::write(const std::string& name, const std::string& fingerprint,
 std::vector<std::string> CloudFolder::othersThan(const std::set<std::string>& names) const {
   std::vector<std::string> others;
   for (const auto& name : pcrb::findClouds(path_)) {
-    if (name != kMapName && names.count(name) == 0) others.push_back(name);
+    if (name != pcrb::kMapCloud && names.count(name) == 0) others.push_back(name);
   }
   return others;
 }

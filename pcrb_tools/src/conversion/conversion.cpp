@@ -19,7 +19,10 @@ Conversion::Conversion(const ConversionRequest& request, const std::string& sequ
                        std::size_t total_scans)
     : folder_(request.root, request.data_set, sequence),
       progress_(sequence, "scans", total_scans),
-      workers_(request.threads, static_cast<std::size_t>(request.threads)) {
+      drop_when_full_(request.drop_when_full),
+      workers_(request.threads, request.max_waiting > 0
+                                    ? request.max_waiting
+                                    : static_cast<std::size_t>(request.threads)) {
   report_.sequence = sequence;
 }
 
@@ -54,12 +57,13 @@ WorkerPool::Job Conversion::jobFor(const std::string& cloud_name, Make make) {
 }
 
 void Conversion::add(const std::string& cloud_name, Make make) {
-  workers_.submit(jobFor(cloud_name, std::move(make)));
-}
-
-bool Conversion::tryToAdd(const std::string& cloud_name, Make make) {
   WorkerPool::Job job = jobFor(cloud_name, std::move(make));
-  return workers_.trySubmit(job);
+  if (!drop_when_full_) {
+    workers_.submit(std::move(job));
+  } else if (!workers_.trySubmit(job)) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report_.dropped["came faster than it could be converted"].push_back(cloud_name);
+  }
 }
 
 void Conversion::drop(const std::string& scan_name, const std::string& reason) {

@@ -20,23 +20,12 @@ constexpr const char* kPoseFile = "pose_scanner_leica.csv";
 
 bool isPoseFile(const LogFile& file) { return file.fileName() == kPoseFile; }
 
-/// Whether a part of a path is a sequence's folder or archive: its name, its log's name, or its
-/// name with an ending or a date (`plain.zip`, `plain_01-Sep`, but not `plain_text`).
-bool namesSequence(const std::string& part, const pcrb::EthSequence& sequence) {
-  if (part.compare(0, sequence.log_name.size(), sequence.log_name) == 0) return true;
-  if (part.compare(0, sequence.name.size(), sequence.name) != 0) return false;
-  const std::string rest = part.substr(sequence.name.size());
-  return rest.empty() || rest[0] == '.' || rest[0] == '-' ||
-         (rest[0] == '_' && rest.size() > 1 && rest[1] >= '0' && rest[1] <= '9');
-}
-
+/// The sequence that the innermost part of a path is named after.
 std::string sequenceOf(const LogFile& file) {
-  const auto path = std::filesystem::absolute(file.path()).lexically_normal();
   std::string found;
-  for (const auto& part : path) {  // the innermost folder counts
-    for (const auto& sequence : pcrb::ethSequences()) {
-      if (namesSequence(part.string(), sequence)) found = sequence.name;
-    }
+  for (const auto& part : std::filesystem::absolute(file.path()).lexically_normal()) {
+    const std::string name = pcrb::ethSequenceName(part.string());
+    if (!name.empty()) found = name;
   }
   return found;
 }

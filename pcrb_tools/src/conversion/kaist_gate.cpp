@@ -29,14 +29,6 @@ auto parseFile(const std::string& path, const LogFiles* log, const char* name, P
   return parse(log->text(found.front()), log->all()[found.front()].path());
 }
 
-/// `urban05` at the start of a text, else nothing.
-std::string urbanName(const std::string& text) {
-  constexpr std::size_t kPrefix = 5;
-  if (text.compare(0, kPrefix, "urban") != 0) return {};
-  const std::size_t end = text.find_first_not_of("0123456789", kPrefix);
-  return end == kPrefix ? std::string() : text.substr(0, end);
-}
-
 }  // namespace
 
 bool isFrameFile(const LogFile& file) {
@@ -101,7 +93,7 @@ std::string kaistSequence(const KaistRequest& request, const std::string& path) 
   if (!request.sequence.empty()) return request.sequence;
   std::string found;
   for (const auto& part : std::filesystem::absolute(path).lexically_normal()) {
-    const std::string name = urbanName(part.string());
+    const std::string name = pcrb::kaistSequenceName(part.string());
     if (!name.empty()) found = name;
   }
   if (found.empty()) {

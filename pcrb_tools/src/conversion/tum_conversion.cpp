@@ -97,7 +97,7 @@ ConversionReport convertImages(const TumRequest& request) {
   const pcrb::Trajectory trajectory = readTrajectory(files, request);
   Conversion conversion(request, sequenceName(request, files.all()[list]), 0);
   noteTrajectory(trajectory, conversion);
-  TumGate gate(trajectory, request.options, conversion);
+  TumGate gate(trajectory, request.options, maxRate(request.options, TumInput::kDepth), conversion);
   const pcrb::Intrinsics intrinsics = request.options.intrinsics.value_or(pcrb::Intrinsics());
   std::vector<FileScan> work;
   for (const auto& image : findImages(files, list, conversion)) {

@@ -4,12 +4,14 @@
 
 namespace pcrb_tools {
 
-TumGate::TumGate(const pcrb::Trajectory& trajectory, const TumOptions& options,
+double maxRate(const TumOptions& options, TumInput input) {
+  constexpr double kPublishedRate = 2.0;
+  return options.max_rate.value_or(input == TumInput::kClouds ? 0.0 : kPublishedRate);
+}
+
+TumGate::TumGate(const pcrb::Trajectory& trajectory, const TumOptions& options, double max_rate,
                  Conversion& conversion)
-    : trajectory_(trajectory),
-      options_(options),
-      conversion_(conversion),
-      limiter_(options.max_rate) {}
+    : trajectory_(trajectory), options_(options), conversion_(conversion), limiter_(max_rate) {}
 
 std::optional<pcrb::Transform> TumGate::admit(pcrb::Stamp stamp) {
   const auto drop = [&](const std::string& reason) {

@@ -13,8 +13,10 @@ namespace pcrb_tools {
 /// and live topics.
 class TumGate {
  public:
-  /// All three must outlive it.
-  TumGate(const pcrb::Trajectory& trajectory, const TumOptions& options, Conversion& conversion);
+  /// All but the number must outlive it.
+  /// @param max_rate  Hz; 0 = all
+  TumGate(const pcrb::Trajectory& trajectory, const TumOptions& options, double max_rate,
+          Conversion& conversion);
 
   /// The pose of a cloud that is to be converted; else it is dropped from the conversion with the
   /// reason. Stamps must come in ascending order.

@@ -16,9 +16,10 @@ void addTumOptions(CLI::App& app, TumRequest& request) {
                "Take the nearest pose, however far in time, as the published clouds did");
   addSecondsOption(app, "--max-gap", options.max_gap,
                    "Refuse clouds between poses further apart than this, s");
-  app.add_option("--max-rate", options.max_rate, "Thin to this rate, Hz; 0 = all clouds")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  app.add_option("--max-rate", options.max_rate,
+                 "Thin to this rate, Hz; 0 = all (default: 0 for clouds of a bag, 2, as the "
+                 "published sequences, for depth images)")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--input", options.input,
                  "Messages of a bag to convert: auto (clouds if there are any), clouds, depth")
       ->transform(CLI::CheckedTransformer(std::map<std::string, TumInput>{

@@ -42,6 +42,11 @@ bool WorkerPool::trySubmit(Job& job) {
   return true;
 }
 
+void WorkerPool::check() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  throwFailure();
+}
+
 void WorkerPool::finish() {
   std::unique_lock<std::mutex> lock(mutex_);
   room_.wait(lock, [this] { return jobs_.empty() && under_way_ == 0; });

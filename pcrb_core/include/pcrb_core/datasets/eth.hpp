@@ -53,4 +53,8 @@ struct EthSequence {
 
 const std::vector<EthSequence>& ethSequences();
 
+/// The published sequence that a folder or an archive is named after, or empty: its name, its log's
+/// name, or its name with an ending or a date (`plain.zip`, `plain_01-Sep`, not `plain_text`).
+std::string ethSequenceName(std::string_view file_name);
+
 }  // namespace pcrb

@@ -57,6 +57,10 @@ struct PlacedScan {
 /// is the left sensor's pose.
 DatasetCloud mergeScans(PlacedScan left, PlacedScan right);
 
+/// The sequence that a folder or an archive is named after, or empty: `urban05` for
+/// `urban05-highway` and `urban05_data.tgz`.
+std::string kaistSequenceName(std::string_view file_name);
+
 /// `urban05_1524211208123456789.pcd`
 std::string kaistCloudName(const std::string& sequence, Stamp left_stamp);
 

@@ -24,6 +24,11 @@ struct ConversionRequest {
   std::string data_set;
   std::string sequence;  ///< empty: from the names of the inputs
   int threads = 1;
+
+  /// Scans that may wait for a thread, with their data; 0 = as many as threads.
+  std::size_t max_waiting = 0;
+  /// What happens to one more: a live stream cannot wait.
+  bool drop_when_full = false;
 };
 
 /// A cloud and what was left out of it.
@@ -64,16 +69,17 @@ class Conversion {
   /// @throws InvalidFile  if the name was announced before.
   bool wants(const std::string& cloud_name, const std::string& origin);
 
-  /// Makes and writes a cloud that wants() wanted, on another thread; waits while many wait.
+  /// Makes and writes a cloud that wants() wanted, on another thread; while too many wait, waits or
+  /// drops it.
   ///
   /// @throws what an earlier scan has thrown, or Interrupted.
   void add(const std::string& cloud_name, Make make);
 
-  /// The same without waiting; false if too many wait.
-  bool tryToAdd(const std::string& cloud_name, Make make);
-
   /// Counts a scan that becomes no cloud.
   void drop(const std::string& scan_name, const std::string& reason);
+
+  /// Throws what a scan has thrown, for callers between whose scans time may pass.
+  void check() { workers_.check(); }
 
   void note(const std::string& text) { report_.notes.push_back(text); }
 
@@ -92,6 +98,7 @@ class Conversion {
   ConversionReport report_;
   std::map<std::string, std::string> fingerprints_;
   Progress progress_;
+  const bool drop_when_full_;
   WorkerPool workers_;  // last: its threads end before what they use
 };
 

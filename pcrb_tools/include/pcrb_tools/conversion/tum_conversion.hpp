@@ -13,9 +13,11 @@ enum class TumInput { kAuto, kClouds, kDepth };
 
 /// How TUM logs become clouds, offline and live.
 struct TumOptions {
-  bool nearest = false;                        ///< the nearest pose, without limit, as upstream did
-  pcrb::Stamp max_gap = pcrb::kSecond / 10;    ///< between the poses that are interpolated
-  double max_rate = 2.0;                       ///< Hz, as the published sequences; 0 = all clouds
+  bool nearest = false;                      ///< the nearest pose, without limit, as upstream did
+  pcrb::Stamp max_gap = pcrb::kSecond / 10;  ///< between the poses that are interpolated
+  /// Hz, 0 = all; nothing: all clouds of a bag, which was thinned by its maker, and depth images at
+  /// the 2 Hz of the published sequences.
+  std::optional<double> max_rate;
   std::optional<pcrb::Intrinsics> intrinsics;  ///< nothing: camera_info; PNGs: the recommendation
   double depth_units = 1000.0;                 ///< a metre in a 16UC1 image on a topic
   pcrb::OriginPoints origin = pcrb::OriginPoints::kKeep;
@@ -24,6 +26,9 @@ struct TumOptions {
   std::string depth_topic = "/camera/depth/image";
   std::string info_topic = "/camera/rgb/camera_info";
 };
+
+/// The rate that depth images are thinned to, or clouds.
+double maxRate(const TumOptions& options, TumInput input);
 
 struct TumRequest : ConversionRequest {
   TumRequest() { data_set = "tum"; }

@@ -32,6 +32,9 @@ class WorkerPool {
   /// Returns false instead of waiting. Throws what an earlier job threw.
   bool trySubmit(Job& job);
 
+  /// Throws what a job threw, if one has.
+  void check();
+
   /// Waits until all jobs are done. Throws what a job threw; the jobs after it were dropped.
   void finish();
 
