@@ -102,11 +102,14 @@ class PclNdt : public pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::Poin
         return;
       }
       step /= length;
-      pose += step * computeStepLengthMT(pose, step, length, parameters_.max_step,
-                                         parameters_.translation_epsilon / 2.0, score, gradient,
-                                         hessian, moved);
+      const double taken = computeStepLengthMT(pose, step, length, parameters_.max_step,
+                                               parameters_.translation_epsilon / 2.0, score,
+                                               gradient, hessian, moved);
+      pose += taken * step;
       ++result_.iterations;
-      result_.converged = (centroid() - before).norm() < parameters_.translation_epsilon;
+      // A step that the line search cut short is short for that reason, not for being at the end.
+      result_.converged =
+          taken >= length && (centroid() - before).norm() < parameters_.translation_epsilon;
     }
     if (result_.converged) result_.reason.clear();
   }

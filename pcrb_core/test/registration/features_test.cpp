@@ -15,7 +15,7 @@ namespace {
 using pcrb_test::hall;
 using pcrb_test::transformed;
 
-constexpr double kLeaf = 0.2;
+constexpr double kLeaf = 0.35;
 constexpr double kNormalRadius = 2.0 * kLeaf;
 constexpr double kFeatureRadius = 5.0 * kLeaf;
 
@@ -106,7 +106,7 @@ TEST(FitRigid, IsExactForPointsThatWereMovedRigidly) {
   const Transform P = pcrb_test::randomMotion(random, 2.5, 10.0);
   Matches matches;
   for (int i = 0; i < 20; ++i) {
-    matches.source.push_back((5.0 * random.uniform() * random.direction()).cast<float>());
+    matches.source.push_back((5.0 * random.direction()).cast<float>());
     matches.target.push_back((P * matches.source.back().cast<double>()).cast<float>());
   }
   matches.source.emplace_back(0.0F, 0.0F, 0.0F);

@@ -68,8 +68,8 @@ TEST(PpcrAssociation, CutsAtTheQuantileOfAllDistancesAndAtTheRadius) {
 }
 
 TEST(Ppcr, EndsWithinOnePercentOfTheTextbook) {
-  constexpr double kLeaf = 0.45;
-  const Parameters parameters{{"voxel_leaf", "0.45"}};
+  constexpr double kLeaf = 0.6;
+  const Parameters parameters{{"voxel_leaf", "0.6"}};
   for (const std::uint64_t seed : {1U, 2U}) {
     Random random(seed);
     const Transform P = pcrb_test::randomMotion(random, 0.15, 0.5);
