@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
 
 namespace pcrb {
 
@@ -18,11 +19,12 @@ std::string describe(XmlRpc::XmlRpcValue value) {
   return text.str();
 }
 
-/// A text parameter. roslaunch and rosrun turn a folder named 2026 into a number, which is taken
-/// back here; leading zeros are lost, unless a launch file gives the parameter type="str".
+/// A text parameter. roslaunch and rosrun turn a folder named 2026 or 1.5 into a number, which is
+/// taken back here; needless zeros are lost, unless a launch file gives the parameter type="str".
 std::optional<std::string> textOf(XmlRpc::XmlRpcValue& value) {
   if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return std::string(value);
   if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return std::to_string(int(value));
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) return formatShortest(double(value));
   return std::nullopt;
 }
 

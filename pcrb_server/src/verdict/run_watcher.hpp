@@ -1,0 +1,50 @@
+#pragma once
+
+#include <pcrb_msgs/Result.h>
+#include <pcrb_msgs/Summary.h>
+#include <ros/node_handle.h>
+
+#include <chrono>
+#include <string>
+
+#include "pcrb_server/node_main.hpp"
+
+namespace pcrb {
+
+/// Watches the run of the benchmark server in this node's namespace until it is over.
+///
+/// While it lives, the server sees that somebody reads its summary and stays (its ~linger).
+class RunWatcher {
+ public:
+  /// @param server  name of the server's node, relative to the namespace.
+  explicit RunWatcher(const std::string& server);
+
+  /// Waits for the summary of a finished run.
+  ///
+  /// @param limit  s from now.
+  /// @throws Error  if there is none: the server did not start or has ended before (SIGKILL
+  ///                included), the limit was reached, a signal came. The message says how far the
+  ///                run was.
+  pcrb_msgs::Summary wait(double limit, const ShutdownNotice& shutdown);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum class Server { kAbsent, kRegistered, kServing };
+
+  void listen();
+  Server lookForServer() const;
+  bool hasServerEnded();
+  [[noreturn]] void fail(const std::string& what) const;
+
+  ros::NodeHandle node_;
+  std::string server_;
+  Server seen_ = Server::kAbsent;  ///< the most that was seen of it
+  int absences_ = 0;               ///< looks in a row that found less
+  Clock::time_point looked_;
+  ros::Subscriber summary_subscriber_;
+  ros::Subscriber result_subscriber_;
+  pcrb_msgs::SummaryConstPtr summary_;
+  pcrb_msgs::ResultConstPtr newest_;
+};
+
+}  // namespace pcrb
