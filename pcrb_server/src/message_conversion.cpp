@@ -84,6 +84,26 @@ geometry_msgs::Pose toMessage(const Transform& T) {
   return pose;
 }
 
+geometry_msgs::TransformStamped toMessage(const Transform& T, const std_msgs::Header& header,
+                                          const std::string& child_frame) {
+  const geometry_msgs::Pose pose = toMessage(T);
+  geometry_msgs::TransformStamped message;
+  message.header = header;
+  message.child_frame_id = child_frame;
+  message.transform.translation.x = pose.position.x;
+  message.transform.translation.y = pose.position.y;
+  message.transform.translation.z = pose.position.z;
+  message.transform.rotation = pose.orientation;
+  return message;
+}
+
+std_msgs::Header makeHeader(const std::string& frame, const ros::Time& stamp) {
+  std_msgs::Header header;
+  header.frame_id = frame;
+  header.stamp = stamp;
+  return header;
+}
+
 Transform fromMessage(const geometry_msgs::Pose& pose) {
   return makeTransform({pose.position.x, pose.position.y, pose.position.z},
                        Eigen::Quaterniond(pose.orientation.w, pose.orientation.x,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 
@@ -34,6 +35,12 @@ void writePoints(const PointCloud& cloud, const Transform& T, std::uint32_t poin
 PointCloud fromMessage(const sensor_msgs::PointCloud2& message);
 
 geometry_msgs::Pose toMessage(const Transform& T);
+
+/// For tf: T_frame_child, `frame` being the header's.
+geometry_msgs::TransformStamped toMessage(const Transform& T, const std_msgs::Header& header,
+                                          const std::string& child_frame);
+
+std_msgs::Header makeHeader(const std::string& frame, const ros::Time& stamp);
 
 /// @throws InvalidProblem  for non-finite numbers or a zero quaternion; others are normalised.
 Transform fromMessage(const geometry_msgs::Pose& pose);

@@ -8,6 +8,8 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/topics.hpp"
+#include "server/scoring.hpp"
+#include "trigger_service.hpp"
 
 namespace pcrb {
 
@@ -24,10 +26,6 @@ std::vector<PlannedProblem> withoutFinished(std::vector<PlannedProblem> problems
   };
   problems.erase(std::remove_if(problems.begin(), problems.end(), is_finished), problems.end());
   return problems;
-}
-
-double secondsSinceEpoch() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 std::string join(const std::set<std::string>& names) {
@@ -83,29 +81,24 @@ void BenchmarkServer::offerServices() {
         exchange_.submit(request, response);
         return true;
       }));
-  offerControl(services::kStart, [this] {
-    is_paused_ = false;
-    return "running";
-  });
-  offerControl(services::kPause, [this] {
-    is_paused_ = true;
-    return "paused after the problem in flight";
-  });
-  offerControl(services::kSkip,
-               [this] { return exchange_.skip() ? "the problem in flight is skipped" : nullptr; });
+  offerControls();
 }
 
-void BenchmarkServer::offerControl(const char* name, const std::function<const char*()>& action) {
-  using std_srvs::Trigger;
-  ros::NodeHandle private_node("~");
-  private_node.setCallbackQueue(&service_queue_);
-  services_.push_back(private_node.advertiseService<Trigger::Request, Trigger::Response>(
-      name, [action](Trigger::Request&, Trigger::Response& response) {
-        const char* done = action();
-        response.success = done != nullptr ? 1 : 0;
-        response.message = done != nullptr ? done : "no problem is in flight";
-        return true;
-      }));
+void BenchmarkServer::offerControls() {
+  ros::NodeHandle node("~");
+  node.setCallbackQueue(&service_queue_);
+  services_.push_back(offerTrigger(node, services::kStart, [this] {
+    is_paused_ = false;
+    return TriggerAnswer{true, "running"};
+  }));
+  services_.push_back(offerTrigger(node, services::kPause, [this] {
+    is_paused_ = true;
+    return TriggerAnswer{true, "paused after the problem in flight"};
+  }));
+  services_.push_back(offerTrigger(node, services::kSkip, [this] {
+    return exchange_.skip() ? TriggerAnswer{true, "the problem in flight is skipped"}
+                            : TriggerAnswer{false, "no problem is in flight"};
+  }));
 }
 
 bool BenchmarkServer::run() {
@@ -160,7 +153,7 @@ bool BenchmarkServer::serve(PreparedProblem prepared) {
   Reply reply;
   if (exchange_.waitReply(reply) == Exchange::Wait::kStopped) return false;
   loader_.prepareAnother();
-  const Result result = score(prepared, reply);
+  const Result result = scoreReply(prepared, reply);
   record_.add(result);
   ++done_;
   publications_.finish(prepared, announcement, result);
@@ -190,37 +183,6 @@ bool BenchmarkServer::waitForClient() {
   }
   if (is_first) record_.noteClient(exchange_.client());
   return true;
-}
-
-Result BenchmarkServer::score(const PreparedProblem& prepared, const Reply& reply) const {
-  const PlannedProblem& planned = *prepared.planned;
-  const Metric& metric = *prepared.source->metric;
-  Result result;
-  result.key = planned.key;
-  result.source = planned.problem.source;
-  result.target = planned.problem.target;
-  result.overlap = planned.problem.overlap;
-  result.outcome = reply.outcome;
-  result.reason = reply.reason;
-  result.initial_misalignment = prepared.initial.error;
-  PoseError error = prepared.initial;  // of the initial guess: what a problem without a reply gets
-  if (reply.outcome == Outcome::kReplied) {
-    result.position = reply.position;
-    result.orientation = reply.orientation;
-    result.covariance = reply.covariance;
-    error = metric.evaluate(
-        prepared.presentation.residual(makeTransform(reply.position, reply.orientation)));
-  }
-  result.error = error.error;
-  result.rotation_error = error.rotation_error;
-  result.translation_error = error.translation_error;
-  result.runtime = reply.runtime;
-  result.solver_time = reply.solver_time;
-  result.scans_used = reply.scans_used;
-  result.target_changed = planned.target_changed;
-  result.replies_rejected = reply.rejected;
-  result.finished = secondsSinceEpoch();
-  return result;
 }
 
 void BenchmarkServer::waitForReaders() {

@@ -3,10 +3,8 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <std_srvs/Trigger.h>
 
 #include <atomic>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -43,13 +41,11 @@ class BenchmarkServer {
 
  private:
   void offerServices();
-  /// @param action  returns what it did, or nullptr if there was nothing to do.
-  void offerControl(const char* name, const std::function<const char*()>& action);
+  void offerControls();
   void waitForStart();
   void waitForListener();
   bool serve(PreparedProblem prepared);
   bool waitForClient();
-  Result score(const PreparedProblem& prepared, const Reply& reply) const;
   Announcement nextAnnouncement(const PreparedProblem& prepared);
   void waitForReaders();
   bool conclude();

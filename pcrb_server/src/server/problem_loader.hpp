@@ -3,17 +3,12 @@
 #include <condition_variable>
 #include <deque>
 #include <future>
-#include <map>
-#include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
-#include "pcrb_core/problem/presentation.hpp"
 #include "pcrb_core/problem/secret.hpp"
-#include "server/cloud_cache.hpp"
+#include "server/problem_poser.hpp"
 #include "server/run_plan.hpp"
 #include "server/serialized_cloud.hpp"
 #include "server/server_parameters.hpp"
@@ -21,16 +16,10 @@
 namespace pcrb {
 
 /// One problem, ready to be served.
-struct PreparedProblem {
-  const PlannedProblem* planned = nullptr;
-  std::shared_ptr<const LoadedCloud> target;
-  std::shared_ptr<const LoadedCloud> source;
+struct PreparedProblem : PosedProblem {
   SerializedCloud source_message;
   SerializedCloud target_message;
   bool publishes_target = false;  ///< whether the target published before is another one
-  Presentation presentation;
-  Transform P = Transform::Identity();  ///< perturbation in the local frame
-  PoseError initial;                    ///< of P: what is scored without a reply
 };
 
 /// Loads and prepares problems ahead of the server, in a thread of its own.
@@ -43,11 +32,8 @@ class ProblemLoader {
   ProblemLoader(const ProblemLoader&) = delete;
   ProblemLoader& operator=(const ProblemLoader&) = delete;
 
-  /// Loads of each sequence and kind the source that is turned the most, and checks all its
-  /// perturbations, so that clouds in another frame than the problem file's are found before the
-  /// run and not in the middle of it. Call before next().
-  /// @throws Error  naming the sequence.
-  void checkFrames();
+  /// ProblemPoser::checkFrames() of all problems. Call before next().
+  void checkFrames() { poser_.checkFrames(problems_); }
 
   /// The next problem; waits until it is ready.
   /// @throws Error  if it cannot be loaded or posed.
@@ -59,20 +45,11 @@ class ProblemLoader {
 
  private:
   PreparedProblem prepare(std::size_t position);
-  void checkFramesOfSource(const PreparedProblem& loaded);
-  void pose(PreparedProblem& prepared, const std::string& previous_target);
-  std::shared_ptr<LoadedCloud> loadTarget(const std::string& path);
-  std::shared_ptr<LoadedCloud> loadSource(const std::string& path,
-                                          const Eigen::Vector3d& local_origin);
-  std::shared_ptr<LoadedCloud> makeLoaded(const std::string& path, const DatasetCloud& read,
-                                          const Eigen::Vector3d& local_origin);
   void work();
 
   const ServerParameters& parameters_;
-  const Secret& secret_;
   const std::vector<PlannedProblem>& problems_;
-  CloudCache cache_;
-  std::map<std::string, Eigen::Vector3d> origins_;  ///< local origins of targets, by path
+  ProblemPoser poser_;
   CloudSerializer serializer_;
 
   std::mutex mutex_;

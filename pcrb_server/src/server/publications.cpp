@@ -2,17 +2,17 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <pcrb_msgs/Problem.h>
 #include <pcrb_msgs/Result.h>
 #include <pcrb_msgs/Summary.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <cmath>
-#include <sstream>
 
+#include "drawing.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/topics.hpp"
+#include "server/problem_message.hpp"
 
 namespace pcrb {
 
@@ -32,52 +32,11 @@ bool isObserver(const std::string& node) {
   return false;
 }
 
-std::uint8_t kindNumber(Kind kind) {
-  return kind == Kind::kLocal ? pcrb_msgs::Problem::LOCAL : pcrb_msgs::Problem::GLOBAL;
-}
-
-/// Where people look, wherever the local origin is: the middle of the target's bounding box, in
-/// whole metres. Not its centroid, which is the secret pose of a scan without a viewpoint when the
-/// same cloud is another problem's source.
-Eigen::Vector3d middleOf(const PointCloud& target) {
-  Eigen::AlignedBox3f box;
-  for (const auto& point : target.points) box.extend(point);
-  return box.center().cast<double>().array().round();
-}
-
 template <typename Message>
 Message withHeader(const std::string& frame, const ros::Time& stamp) {
   Message message;
-  message.header.frame_id = frame;
-  message.header.stamp = stamp;
+  message.header = makeHeader(frame, stamp);
   return message;
-}
-
-std_msgs::Header header(const std::string& frame, const ros::Time& stamp) {
-  std_msgs::Header header;
-  header.frame_id = frame;
-  header.stamp = stamp;
-  return header;
-}
-
-visualization_msgs::Marker errorText(const std_msgs::Header& header,
-                                     const Eigen::Vector3d& position, const Result& result) {
-  std::ostringstream text;
-  text.precision(3);
-  text << "error " << result.error << " (initial " << result.initial_misalignment << ")";
-  if (result.outcome != Outcome::kReplied) text << '\n' << toString(result.outcome);
-  visualization_msgs::Marker marker;
-  marker.header = header;
-  marker.ns = "error";
-  marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  marker.pose.position.x = position.x();
-  marker.pose.position.y = position.y();
-  marker.pose.position.z = position.z() + 2.0;
-  marker.pose.orientation.w = 1.0;
-  marker.scale.z = 1.0;
-  marker.color.r = marker.color.g = marker.color.b = marker.color.a = 1.0f;
-  marker.text = text.str();
-  return marker;
 }
 
 }  // namespace
@@ -116,10 +75,6 @@ std::set<std::string> Publications::listeners() const {
   return names;
 }
 
-bool Publications::hasGuess(const PreparedProblem& prepared) const {
-  return prepared.planned->key.kind == Kind::kLocal || parameters_.global_guess;
-}
-
 void Publications::announceTarget(const PreparedProblem& prepared,
                                   const Announcement& announcement) {
   const Eigen::Vector3d& origin = prepared.target->cloud.local_origin;
@@ -139,30 +94,12 @@ void Publications::announceTarget(const PreparedProblem& prepared,
 
 void Publications::announce(const PreparedProblem& prepared, const Announcement& announcement) {
   if (prepared.publishes_target) announceTarget(prepared, announcement);
-  auto problem = withHeader<pcrb_msgs::Problem>(parameters_.map_frame, announcement.stamp);
-  problem.problem_id = announcement.problem_id;
-  problem.data_set = prepared.planned->key.data_set;
-  problem.kind = kindNumber(prepared.planned->key.kind);
-  problem.presentation =
-      static_cast<std::uint8_t>(parameters_.isLocalization() ? pcrb_msgs::Problem::LOCALIZATION
-                                                             : pcrb_msgs::Problem::REGISTRATION);
-  problem.index = announcement.index;
-  problem.count = announcement.count;
-  problem.target_stamp = target_stamp_;
-  problem.source_frame = parameters_.sourceFrame();
-  problem.has_guess = hasGuess(prepared) ? 1 : 0;
-  problem.initial_guess =
-      toMessage(hasGuess(prepared) ? prepared.presentation.guess : Transform::Identity());
-  problem.time_limit = ros::Duration(parameters_.time_limit);
-  problem_.publish(problem);
+  problem_.publish(problemMessage(prepared, announcement, target_stamp_, parameters_));
 }
 
 void Publications::handOut(const PreparedProblem& prepared, const Announcement& announcement) {
-  if (hasGuess(prepared)) {
-    auto pose = withHeader<geometry_msgs::PoseWithCovarianceStamped>(parameters_.map_frame,
-                                                                     announcement.stamp);
-    pose.pose.pose = toMessage(prepared.presentation.guess);
-    initial_pose_.publish(pose);
+  if (hasGuess(prepared, parameters_)) {
+    initial_pose_.publish(initialPoseMessage(prepared, announcement.stamp, parameters_));
   }
   SerializedCloud source = prepared.source_message;
   source.setStamp(announcement.stamp);
@@ -199,7 +136,7 @@ void Publications::finish(const PreparedProblem& prepared, const Announcement& a
 
 void Publications::showReply(const PreparedProblem& prepared, const Announcement& announcement,
                              const Result& result) {
-  const std_msgs::Header in_map = header(parameters_.map_frame, announcement.stamp);
+  const std_msgs::Header in_map = makeHeader(parameters_.map_frame, announcement.stamp);
   const Transform reply = result.position && result.orientation
                               ? makeTransform(*result.position, *result.orientation)
                               : prepared.presentation.guess;
@@ -210,8 +147,8 @@ void Publications::showReply(const PreparedProblem& prepared, const Announcement
   }
   if (markers_.getNumSubscribers() > 0) {
     visualization_msgs::MarkerArray markers;
-    markers.markers.push_back(
-        errorText(in_map, T_map_source * prepared.source->metric->centroid(), result));
+    markers.markers.push_back(textMarker(in_map, T_map_source * prepared.source->metric->centroid(),
+                                         errorText(result), prepared.target->cloud));
     markers_.publish(markers);
   }
 }
@@ -219,13 +156,7 @@ void Publications::showReply(const PreparedProblem& prepared, const Announcement
 void Publications::broadcast(const std::string& parent, const std::string& child,
                              const Transform& T, const ros::Time& stamp, bool is_static) {
   if (!parameters_.publish_tf) return;
-  auto transform = withHeader<geometry_msgs::TransformStamped>(parent, stamp);
-  transform.child_frame_id = child;
-  const geometry_msgs::Pose pose = toMessage(T);
-  transform.transform.translation.x = pose.position.x;
-  transform.transform.translation.y = pose.position.y;
-  transform.transform.translation.z = pose.position.z;
-  transform.transform.rotation = pose.orientation;
+  const auto transform = toMessage(T, makeHeader(parent, stamp), child);
   if (is_static) {
     static_tf_.sendTransform(transform);
   } else {

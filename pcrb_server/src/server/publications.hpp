@@ -13,17 +13,10 @@
 #include "pcrb_core/evaluation/result.hpp"
 #include "pcrb_core/evaluation/summary.hpp"
 #include "server/problem_loader.hpp"
+#include "server/problem_message.hpp"
 #include "server/server_parameters.hpp"
 
 namespace pcrb {
-
-/// Where a problem stands in its run, and what it is called there.
-struct Announcement {
-  std::string problem_id;  ///< random
-  ros::Time stamp;
-  std::uint32_t index = 0;
-  std::uint32_t count = 0;
-};
 
 /// Everything that the server publishes. Nothing here gives a problem's answer away before it has
 /// ended.
@@ -55,7 +48,6 @@ class Publications {
   void showTruth(const PreparedProblem& prepared, const Announcement& announcement);
   void broadcast(const std::string& parent, const std::string& child, const Transform& T,
                  const ros::Time& stamp, bool is_static);
-  bool hasGuess(const PreparedProblem& prepared) const;
 
   const ServerParameters& parameters_;
   ros::Time target_stamp_;

@@ -12,11 +12,6 @@ namespace pcrb {
 
 namespace {
 
-bool names(const std::string& word, const SequenceFiles& files) {
-  return word == "all" || word == files.sequence || word == files.data_set ||
-         word == files.data_set + "/" + files.sequence;
-}
-
 /// The selected problem files; every word of the selection must name at least one.
 std::vector<SequenceFiles> selectFiles(const ServerParameters& parameters) {
   const std::vector<SequenceFiles> known = findSequences(parameters.root);
@@ -24,13 +19,15 @@ std::vector<SequenceFiles> selectFiles(const ServerParameters& parameters) {
   for (const auto& files : known) {
     for (const Kind kind : parameters.kinds) {
       bool is_named = false;
-      for (const auto& word : parameters.sequences) is_named |= names(word, files);
+      for (const auto& word : parameters.sequences)
+        is_named |= namesSequence(word, files.data_set, files.sequence);
       if (is_named && files.kind == kind) selected.push_back(files);
     }
   }
   for (const auto& word : parameters.sequences) {
     bool is_used = false;
-    for (const auto& files : selected) is_used |= names(word, files);
+    for (const auto& files : selected)
+      is_used |= namesSequence(word, files.data_set, files.sequence);
     if (is_used) continue;
     std::set<std::string> list;
     for (const auto& files : known) list.insert(files.data_set + "/" + files.sequence);
@@ -94,6 +91,11 @@ std::vector<PlannedProblem> select(std::vector<PlannedProblem> problems,
 }
 
 }  // namespace
+
+bool namesSequence(const std::string& word, const std::string& data_set,
+                   const std::string& sequence) {
+  return word == "all" || word == sequence || word == data_set || word == data_set + "/" + sequence;
+}
 
 RunPlan makeRunPlan(const ServerParameters& parameters) {
   RunPlan plan;

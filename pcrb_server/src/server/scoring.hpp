@@ -1,0 +1,13 @@
+#pragma once
+
+#include "pcrb_core/evaluation/result.hpp"
+#include "server/exchange.hpp"
+#include "server/problem_poser.hpp"
+
+namespace pcrb {
+
+/// The row of a problem, finished now: the same bits for the same pose, online and offline. Without
+/// a pose the initial guess is scored.
+Result scoreReply(const PosedProblem& posed, const Reply& reply);
+
+}  // namespace pcrb
