@@ -18,7 +18,7 @@ packages=(launch pcrb_core pcrb_msgs pcrb_server pcrb_tools)
 
 needed_debian_packages=(
   catkin ccache cmake g++ make pkg-config
-  libros-rosgraph-msgs-dev librosbag-dev librostest-dev libstd-srvs-dev libtf2-dev libtf2-ros-dev
+  libros-rosgraph-msgs-dev librosbag-dev librostest-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev libtf2-ros-dev
   libvisualization-msgs-dev ros-base-dev rviz
   python3-geometry-msgs python3-numpy python3-rosbag python3-rosgraph-msgs python3-rosnode python3-rospy python3-rostest
   python3-sensor-msgs python3-std-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs

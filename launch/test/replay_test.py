@@ -1,0 +1,232 @@
+#!/usr/bin/env python3
+"""What replay publishes of a sequence, of its problems and of a run: every cloud where it belongs."""
+import os
+import sys
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from nav_msgs.msg import Path
+from pcrb_msgs.msg import Problem
+from sensor_msgs.msg import PointCloud2
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pcrb_testing_data as maths
+from pcrb_testing import Child, TestCase, executable, rows, wait_until
+
+TOPICS = {
+    'map': PointCloud2, 'scan': PointCloud2, 'sensor': PoseStamped, 'path': Path, 'target': PointCloud2,
+    'source': PointCloud2, 'source_true': PointCloud2, 'source_aligned': PointCloud2, 'problem': Problem,
+    'initialpose': PoseWithCovarianceStamped, 'markers': MarkerArray}
+FLOAT32 = 2e-5  # m, of coordinates up to 100 m
+
+
+class Viewer:
+    """Keeps every message of every topic by its stamp."""
+
+    def __init__(self, namespace):
+        self.messages = {topic: {} for topic in TOPICS}
+        self.transforms = {}
+        self._subscribers = [
+            rospy.Subscriber(f'{namespace}/{topic}', kind, self._take, topic) for topic, kind in TOPICS.items()]
+        self._subscribers += [rospy.Subscriber(name, TFMessage, self._take_tf) for name in ('/tf', '/tf_static')]
+
+    def _take(self, message, topic):
+        header = message.markers[0].header if topic == 'markers' else message.header
+        self.messages[topic][header.stamp] = message
+
+    def _take_tf(self, message):
+        for transform in message.transforms:
+            self.transforms[transform.header.frame_id, transform.child_frame_id] = transform.transform
+
+    def of(self, topic):
+        """In the order of their stamps."""
+        return [message for _, message in sorted(self.messages[topic].items())]
+
+    def close(self):
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+
+
+class ReplayTest(TestCase):
+
+    def setUp(self):
+        super().setUp()
+        self.data = maths.make_data_set(self.path('root'))
+        self.viewer = Viewer('/replayed')
+        self.addCleanup(self.viewer.close)
+
+    def replay(self, **parameters):
+        """Paused before the first scene."""
+        name = '/replayed/replay'
+        if rospy.has_param(name):
+            rospy.delete_param(name)
+        rospy.set_param(name, {'autostart': False, 'rate': 100, **parameters})
+        return self.start(Child([executable('pcrb_server', 'replay')], '/replayed'))
+
+    def call(self, service):
+        rospy.wait_for_service(f'/replayed/replay/{service}', 60)
+        self.assertTrue(rospy.ServiceProxy(f'/replayed/replay/{service}', Trigger)().success)
+
+    def step(self, *topics):
+        """The next scene: its messages of some topics."""
+        before = {topic: len(self.viewer.messages[topic]) for topic in topics}
+        self.call('step')
+        for topic in topics:
+            wait_until(lambda: len(self.viewer.messages[topic]) > before[topic], f'{topic} comes')
+        return [self.viewer.of(topic)[-1] for topic in topics]
+
+    def assert_points(self, message, expected):
+        self.assertEqual(message.header.frame_id, 'map')
+        np.testing.assert_allclose(maths.points_of(message), expected, atol=FLOAT32)
+
+    def assert_pose(self, pose, expected, tolerance=1e-9):
+        np.testing.assert_allclose(maths.from_pose(pose), expected, atol=tolerance)
+
+    def hall(self):
+        names = maths.SEQUENCES['hall']
+        origin = maths.local_origin(self.data.clouds['hall', names[0]])
+        poses = [maths.transform(np.eye(3), -origin) @ self.data.viewpoints['hall', name] for name in names]
+        return [self.data.clouds['hall', name] - origin for name in names], poses, origin
+
+    def test_a_sequence_shows_scans_sensor_path_and_a_growing_map(self):
+        scans, poses, origin = self.hall()
+        self.replay(root=self.data.root, sequence='hall', map_leaf=0.1)
+        sizes = []
+        for i, (points, pose) in enumerate(zip(scans, poses)):
+            scan, sensor, path, grown = self.step('scan', 'sensor', 'path', 'map')
+            self.assert_points(scan, points)
+            self.assert_pose(sensor.pose, pose)
+            self.assertEqual(len(path.poses), i + 1)
+            self.assert_pose(path.poses[0].pose, poses[0])
+            sizes.append(grown.width)
+            self.assertLess(np.abs(maths.points_of(grown)).max(), 100)
+        self.assertEqual(sizes, sorted(set(sizes)))
+        earth = self.viewer.transforms['earth', 'map'].translation
+        self.assertEqual([earth.x, earth.y, earth.z], origin.tolist())
+        found = self.viewer.transforms['map', 'pcrb_sensor'].translation
+        np.testing.assert_allclose([found.x, found.y, found.z], poses[-1][:3, 3], atol=1e-9)
+
+    def test_the_growing_map_keeps_its_limit(self):
+        self.replay(root=self.data.root, sequence='rooms/kitchen', map_leaf=0.05, map_points=700)
+        for _ in range(3):
+            grown, = self.step('map')
+            self.assertLessEqual(grown.width, 700)
+            self.assertGreater(grown.width, 50)
+
+    def test_a_player_gives_a_node_scans_in_their_sensors_frame_and_nothing_else(self):
+        scans, poses, _ = self.hall()
+        stamps = self.path('scans.txt')
+        replay = self.replay(root=self.data.root, sequence='hall', truth=False, map_file=maths.SEQUENCES['hall'][1],
+                             stamps_file=stamps)
+        for i in (0, 2):
+            scan, = self.step('scan')
+            self.assertEqual(scan.header.frame_id, 'pcrb_scan')
+            np.testing.assert_allclose(maths.moved(poses[i], maths.points_of(scan)), scans[i], atol=FLOAT32)
+        self.assert_ends_well(replay)
+        self.assertEqual(len(self.viewer.of('initialpose')), 1)
+        self.assert_pose(self.viewer.of('initialpose')[0].pose.pose, poses[0])
+        self.assert_points(self.viewer.of('map')[0], scans[1])
+        for topic in 'sensor', 'path', 'markers':
+            self.assertEqual(self.viewer.of(topic), [])
+        self.assertNotIn(('map', 'pcrb_sensor'), self.viewer.transforms)
+        with open(stamps) as file:
+            listed = [line.split() for line in file if not line.startswith('#')]
+        self.assertEqual([name for _, name in listed], [maths.SEQUENCES['hall'][i] for i in (0, 2)])
+        self.assertEqual([stamp for stamp, _ in listed],
+                         [f'{s.header.stamp.secs}.{s.header.stamp.nsecs:09}' for s in self.viewer.of('scan')])
+
+    def test_a_player_needs_viewpoints(self):
+        self.assert_fails(self.replay(root=self.data.root, sequence='kitchen', truth=False), 'found no VIEWPOINT')
+
+    def test_problems_show_the_source_as_perturbed_and_where_it_belongs(self):
+        self.replay(root=self.data.root, sequence='hall', problems='local')
+        for problem in self.data.of('local', 'hall'):
+            announced, source, truth, markers = self.step('problem', 'source', 'source_true', 'markers')
+            points = self.data.source_points(problem)
+            self.assertEqual(announced.problem_id, problem.id)
+            self.assert_points(source, maths.moved(self.data.local_P(problem), points))
+            self.assert_points(truth, points)
+            self.assertIn('overlap 0.75', markers.markers[0].text)
+            target = [m for m in self.viewer.of('target') if m.header.stamp == announced.target_stamp]
+            self.assert_points(target[0], self.data.clouds['hall', problem.target] - self.data.origin(problem))
+
+    def run_of_guesses(self, presentation):
+        """The results of a run whose client moves the guess a bit."""
+        server = self.server(self.data, presentation=presentation)
+
+        def answer(client, problem):
+            pose = maths.from_pose(problem.initial_guess)
+            pose[:3, 3] += [0.3, -0.2, 0.1]
+            client.submit(problem, maths.fill_pose(problem.initial_guess, pose))
+
+        self.client(server).serve(server, answer)
+        self.assert_ends_well(server)
+        return {row['problem_id']: row for row in rows(server.run)}
+
+    def assert_run_is_shown(self, presentation):
+        results = self.run_of_guesses(presentation)
+        self.replay(run=self.path('run'), order='worst')
+        errors = []
+        for _ in results:
+            source, aligned, markers = self.step('source', 'source_aligned', 'markers')
+            text = markers.markers[0].text
+            row = min(results.values(), key=lambda r: abs(r['error'] - float(text.split()[1])))
+            problem = self.data.by_id(row['problem_id'])
+            points = self.data.source_points(problem)
+            self.assert_points(source, maths.moved(self.data.local_P(problem), points))
+            self.assertAlmostEqual(
+                maths.error(points, maths.rigid_fit(points, maths.points_of(aligned))), row['error'], delta=1e-4)
+            errors.append(row['error'])
+        self.assertEqual(errors, sorted(errors, reverse=True))
+
+    def test_a_run_of_registration_is_shown_worst_first(self):
+        self.assert_run_is_shown('registration')
+
+    def test_a_run_of_localization_is_shown_in_the_maps_frame(self):
+        self.assert_run_is_shown('localization')
+
+    def test_changed_data_are_no_run(self):
+        self.run_of_guesses('registration')
+        self.data.problems.reverse()
+        self.data.write_problems('hall', 'local')
+        self.assert_fails(self.replay(run=self.path('run')), 'hall_local.txt has changed since the run used it')
+
+    def test_plays_pauses_steps_and_loops(self):
+        replay = self.replay(root=self.data.root, sequence='kitchen', loop=True)
+        self.step('scan')
+        self.step('scan')
+        self.assertEqual(len(self.viewer.of('scan')), 2)
+        self.call('start')
+        replay.wait_for_output(r'3/3(.*\n)+.*3/3')
+        self.call('pause')
+        wait_until(lambda: len(self.viewer.of('scan')) == replay.output().count('/3 kitchen'), 'all scenes are seen')
+        before = len(self.viewer.of('scan'))
+        self.step('scan')
+        self.assertEqual(len(self.viewer.of('scan')), before + 1)
+        replay.interrupt()
+        self.assert_ends_well(replay)
+
+    def test_stays_for_who_comes_late(self):
+        replay = self.replay(root=self.data.root, sequence='hall', autostart=True, keep_alive=True)
+        replay.wait_for_output('at the end')
+        for topic in 'map', 'scan', 'sensor', 'path':
+            late = rospy.wait_for_message(f'/replayed/{topic}', TOPICS[topic], 60)
+            self.assertEqual(late.header.frame_id, 'map')
+        self.call('step')
+        replay.wait_for_output('at the end(.*\n)+1/3')
+
+    def test_says_every_mistake(self):
+        self.assert_fails(self.replay(root=self.data.root, sequence='hal', rate=0, colour='red'),
+                          '3 mistakes', 'found `hal`', '~rate', '~colour: no parameter')
+        self.assert_fails(self.replay(root=self.data.root), '~sequence or ~run')
+        self.assert_fails(self.replay(run=self.path('nothing')), 'nothing')
+
+
+if __name__ == '__main__':
+    rospy.init_node('replay_test')
+    rostest.rosrun('pcrb_launch', 'replay', ReplayTest)

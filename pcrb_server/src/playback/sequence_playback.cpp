@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/cloud_files.hpp"
+#include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/problem/dataset.hpp"
+#include "pcrb_server/message_conversion.hpp"
+#include "pcrb_server/playback/playback.hpp"
+#include "playback/bounded_map.hpp"
+#include "playback/scene_frames.hpp"
+
+namespace pcrb {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSensorFrame = "pcrb_sensor";
+
+/// Absolute, without a slash at the end.
+fs::path pathOf(const SequenceOptions& options) {
+  return fs::absolute(options.folder + "/").lexically_normal().parent_path();
+}
+
+/// The scans of a folder: all clouds but those that are not wanted.
+std::vector<std::string> findScans(const SequenceOptions& options) {
+  std::vector<std::string> names = findClouds(options.folder);
+  const auto remove = [&names](const std::string& name) {
+    const auto end = std::remove(names.begin(), names.end(), name);
+    const bool was_there = end != names.end();
+    names.erase(end, names.end());
+    return was_there;
+  };
+  for (const std::string& name : options.excluded) {
+    if (remove(name)) continue;
+    throw InvalidParameter("found no cloud `" + name + "` in " + options.folder +
+                           ", expected the name of one of its .pcd files");
+  }
+  if (!options.map_file.empty()) {
+    const fs::path map = fs::absolute(options.map_file).lexically_normal();
+    if (map.parent_path() == pathOf(options)) remove(map.filename());
+  }
+  if (names.empty()) throw InvalidFile(options.folder, 0, "no scan", "a sequence's .pcd files");
+  return names;
+}
+
+double leafOf(const SequenceOptions& options) {
+  if (options.map_leaf > 0.0) return options.map_leaf;
+  const fs::path data_set = pathOf(options).parent_path();
+  return loadDataset(data_set.parent_path(), data_set.filename()).voxel_leaf;
+}
+
+class SequencePlayback : public Playback {
+ public:
+  explicit SequencePlayback(const SequenceOptions& options)
+      : options_(options),
+        names_(findScans(options)),
+        leaf_(leafOf(options)),
+        frames_(options.map_frame),
+        growing_(leaf_, options.map_points) {
+    const DatasetCloud first = read(0);
+    if (options.map_file.empty()) {
+      local_origin_ = chooseLocalOrigin(first);
+    } else {
+      const DatasetCloud map = readPcd(options.map_file);
+      local_origin_ = chooseLocalOrigin(map);
+      map_ = makeLocal(map, local_origin_);
+    }
+    if (!options.truth) requireViewpoint(first, 0);
+  }
+
+  std::size_t size() const override { return names_.size(); }
+
+  Scene next(const ros::Time& stamp) override {
+    if (position_ == names_.size()) position_ = 0;
+    if (position_ == 0) start();
+    const DatasetCloud read_cloud = read(position_);
+    Scene scene;
+    scene.name = names_[position_];
+    scene.title = pathOf(options_).filename().string() + " " + scene.name;
+    std::optional<Transform> sensor;  // T_map_sensor, where it is known
+    if (read_cloud.hasViewpoint()) sensor = inMap(read_cloud.viewpoint);
+    if (options_.truth) {
+      showTruth(scene, stamp, read_cloud, sensor);
+    } else {
+      requireViewpoint(read_cloud, position_);
+      handOut(scene, stamp, read_cloud, *sensor);
+    }
+    ++position_;
+    return scene;
+  }
+
+ private:
+  DatasetCloud read(std::size_t position) const {
+    return readPcd(options_.folder + "/" + names_[position]);
+  }
+
+  void requireViewpoint(const DatasetCloud& cloud, std::size_t position) const {
+    if (cloud.hasViewpoint()) return;
+    throw InvalidFile(options_.folder + "/" + names_[position], 0, "no VIEWPOINT",
+                      "the sensor's pose, without which a scan cannot be shown in its own frame");
+  }
+
+  Transform inMap(const Transform& T_dataset_sensor) const {
+    Transform T = T_dataset_sensor;
+    T.translation() -= local_origin_;
+    return T;
+  }
+
+  void start() {
+    growing_ = BoundedMap(leaf_, options_.map_points);
+    path_.poses.clear();
+  }
+
+  /// The scan where it belongs, the map as it has grown, the sensor's way.
+  void showTruth(Scene& scene, const ros::Time& stamp, const DatasetCloud& read_cloud,
+                 const std::optional<Transform>& sensor) {
+    const std_msgs::Header header = makeHeader(options_.map_frame, stamp);
+    const PointCloud scan = makeLocal(read_cloud, local_origin_);
+    if (options_.map_file.empty()) {
+      growing_.add(read_cloud);
+      map_ = makeLocal(growing_.cloud(), local_origin_);
+    }
+    frames_.set(scene, stamp, map_);
+    scene.clouds.emplace_back(topics::kScan, toMessage(scan, Transform::Identity(), header));
+    if (options_.map_file.empty() || position_ == 0) {
+      scene.clouds.emplace_back(topics::kMap, toMessage(map_, Transform::Identity(), header));
+    }
+    if (!sensor) return;
+    scene.sensor.emplace();
+    scene.sensor->header = header;
+    scene.sensor->pose = toMessage(*sensor);
+    scene.transforms.transforms.push_back(toMessage(*sensor, header, kSensorFrame));
+    path_.header = header;
+    path_.poses.push_back(*scene.sensor);
+    scene.path = path_;
+  }
+
+  /// What a node under test gets.
+  void handOut(Scene& scene, const ros::Time& stamp, const DatasetCloud& read_cloud,
+               const Transform& sensor) {
+    PointCloud origin_only;
+    origin_only.local_origin = local_origin_;
+    frames_.set(scene, stamp, options_.map_file.empty() ? origin_only : map_);
+    const std_msgs::Header in_map = makeHeader(options_.map_frame, stamp);
+    if (position_ == 0) {
+      scene.initial_pose.emplace();
+      scene.initial_pose->header = in_map;
+      scene.initial_pose->pose.pose = toMessage(sensor);
+      if (!options_.map_file.empty()) {
+        scene.clouds.emplace_back(topics::kMap, toMessage(map_, Transform::Identity(), in_map));
+      }
+    }
+    scene.clouds.emplace_back(topics::kScan,
+                              toMessage(makeLocal(read_cloud, local_origin_), sensor.inverse(),
+                                        makeHeader(options_.scan_frame, stamp)));
+  }
+
+  SequenceOptions options_;
+  std::vector<std::string> names_;
+  double leaf_;
+  SceneFrames frames_;
+  Eigen::Vector3d local_origin_;
+  BoundedMap growing_;
+  PointCloud map_;
+  nav_msgs::Path path_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Playback> playSequence(const SequenceOptions& options) {
+  return std::make_unique<SequencePlayback>(options);
+}
+
+}  // namespace pcrb

@@ -1,0 +1,105 @@
+#include "replay/replay.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_server/playback/scan_list.hpp"
+#include "trigger_service.hpp"
+
+namespace pcrb {
+
+Replay::Replay(const ReplayParameters& parameters, ShutdownNotice& shutdown)
+    : parameters_(parameters),
+      shutdown_(shutdown),
+      playback_(makePlayback(parameters)),
+      is_paused_(!parameters.autostart),
+      due_(Clock::now()),
+      publisher_(node_),
+      spinner_(1, &service_queue_) {
+  offerServices();
+  shutdown_.onShutdown([this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_over_ = true;
+    changed_.notify_all();
+  });
+  spinner_.start();
+}
+
+Replay::~Replay() {
+  shutdown_.forget();
+  spinner_.stop();
+}
+
+void Replay::offerServices() {
+  ros::NodeHandle node("~");
+  node.setCallbackQueue(&service_queue_);
+  const auto offer = [&](const char* name, const char* answer, const auto& change) {
+    services_.push_back(offerTrigger(node, name, [this, answer, change] {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      change();
+      changed_.notify_all();
+      return TriggerAnswer{true, answer};
+    }));
+  };
+  offer(services::kStart, "playing", [this] { is_paused_ = false; });
+  offer(services::kPause, "paused", [this] { is_paused_ = true; });
+  offer(services::kStep, "paused, one scene further", [this] {
+    is_paused_ = true;
+    ++steps_;
+  });
+}
+
+bool Replay::waitForTurn() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!is_over_) {
+    if (is_paused_ && steps_ > 0) {
+      --steps_;
+      due_ = Clock::now();
+      return true;
+    }
+    if (is_paused_) {
+      changed_.wait(lock);
+      due_ = std::max(due_, Clock::now());  // what was missed in a pause is not caught up on
+    } else if (Clock::now() >= due_) {
+      return true;
+    } else {
+      changed_.wait_until(lock, due_);
+    }
+  }
+  return false;
+}
+
+void Replay::run() {
+  while (waitForTurn()) {
+    show();
+    const bool is_last = shown_ % playback_->size() == 0;
+    if (!is_last || parameters_.loop) continue;
+    if (!parameters_.keep_alive) break;
+    pauseAtEnd();
+  }
+  if (!parameters_.stamps_file.empty()) writeStamps();
+}
+
+void Replay::show() {
+  const auto period = std::chrono::duration<double>(1.0 / parameters_.rate);
+  due_ = std::max(due_, Clock::now() - std::chrono::duration_cast<Clock::duration>(period)) +
+         std::chrono::duration_cast<Clock::duration>(period);
+  last_stamp_ = std::max(ros::Time::now(), last_stamp_ + ros::Duration(0, 1));
+  const Scene scene = playback_->next(last_stamp_);
+  publisher_.publish(scene);
+  std::cout << shown_ % playback_->size() + 1 << "/" << playback_->size() << " " << scene.title
+            << std::endl;
+  ++shown_;
+  if (!parameters_.stamps_file.empty()) appendScan(stamps_, scene);
+}
+
+void Replay::pauseAtEnd() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_paused_ = true;
+  std::cout << "at the end; ~start plays it again" << std::endl;
+}
+
+void Replay::writeStamps() const { writeFileAtomically(parameters_.stamps_file, stamps_); }
+
+}  // namespace pcrb
