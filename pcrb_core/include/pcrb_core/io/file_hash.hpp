@@ -9,4 +9,9 @@ namespace pcrb {
 /// @throws InvalidFile  if the file cannot be read.
 std::string fileHash(const std::string& path);
 
+/// SHA-256 of a file's bytes as 64 hexadecimal digits (libsodium): what `sha256sum` prints.
+///
+/// @throws InvalidFile  if the file cannot be read.
+std::string fileSha256(const std::string& path);
+
 }  // namespace pcrb
