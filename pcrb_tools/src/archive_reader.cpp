@@ -20,16 +20,6 @@ bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-bool beginsLikeHtml(const std::string& path) {
-  std::array<char, 256> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), start.size() - 1);
-  std::string text(start.data());
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text.find("<html") != std::string::npos || text.find("<!doctype") != std::string::npos;
-}
-
 bool hasControlCharacter(const std::string& name) {
   return std::any_of(name.begin(), name.end(),
                      [](unsigned char c) { return c < 0x20 || c == 0x7f; });
@@ -42,6 +32,16 @@ void require(int status, archive* reader, const std::string& path) {
 }
 
 }  // namespace
+
+bool beginsLikeHtml(const std::string& path) {
+  std::array<char, 256> start{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), start.size() - 1);
+  std::string text(start.data());
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text.find("<html") != std::string::npos || text.find("<!doctype") != std::string::npos;
+}
 
 bool isArchiveName(const std::string& path) {
   constexpr std::array<std::string_view, 6> kEnds = {".zip",    ".tar",     ".tgz",

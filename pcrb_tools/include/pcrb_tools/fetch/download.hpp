@@ -1,0 +1,38 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace pcrb_tools {
+
+/// One file to download by http, https or ftp.
+struct Download {
+  std::string url;
+  std::string destination;             ///< path; until it is complete, `<destination>.part`
+  bool google_drive = false;           ///< an HTML page in its place asks for a confirmation
+  std::optional<std::uint64_t> bytes;  ///< what its size must be, where known
+  /// Throws a pcrb::Error if the file at the path is not what it should be.
+  std::function<void(const std::string& path)> check;
+};
+
+/// How patient a download is.
+struct DownloadPolicy {
+  int attempts = 6;                             ///< in a row that bring no new byte
+  std::chrono::milliseconds first_delay{2000};  ///< before the second attempt; doubles every time
+  long connect_limit_s = 30;
+  long stall_limit_s = 60;                                                   ///< without a byte
+  std::function<void(std::uint64_t done, std::uint64_t total)> on_progress;  ///< total 0 = unknown
+};
+
+/// Downloads a file, going on from `<destination>.part` where an earlier attempt or run stopped.
+///
+/// Interrupted transfers and server errors are tried again, others are not. A file that changed on
+/// the server in between (ETag, Last-Modified) is begun anew. The file gets its name only when it
+/// is complete, of the right size and has passed its check; one that has not is removed.
+/// @throws pcrb::Error  saying what the server or the network said.
+void download(const Download& file, const DownloadPolicy& policy);
+
+}  // namespace pcrb_tools

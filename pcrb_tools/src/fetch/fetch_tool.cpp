@@ -1,0 +1,259 @@
+#include "pcrb_tools/fetch/fetch_tool.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_tools/archive_reader.hpp"
+#include "pcrb_tools/check_tool.hpp"
+#include "pcrb_tools/fetch/checksums.hpp"
+#include "pcrb_tools/fetch/sources.hpp"
+#include "pcrb_tools/fetch/unpack.hpp"
+#include "pcrb_tools/progress.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string nameOf(const Source& source) { return source.data_set + "/" + source.sequence; }
+
+bool isWanted(const FetchOptions& options, const Source& source) {
+  if (!(options.original ? source.is_original : source.is_published)) return false;
+  if (options.sequences.empty()) return true;
+  return std::any_of(
+      options.sequences.begin(), options.sequences.end(),
+      [&](const std::string& name) { return name == source.data_set || name == nameOf(source); });
+}
+
+std::vector<Source> findWanted(const FetchOptions& options) {
+  std::vector<Source> sources = readSources(options.sources);
+  for (const std::string& name : options.sequences) {
+    FetchOptions one = options;
+    one.sequences = {name};
+    if (std::none_of(sources.begin(), sources.end(),
+                     [&](const Source& source) { return isWanted(one, source); })) {
+      throw pcrb::InvalidParameter(options.sources + ": found no source of '" + name +
+                                   "', expected <data set> or <data set>/<sequence>");
+    }
+  }
+  sources.erase(std::remove_if(sources.begin(), sources.end(),
+                               [&](const Source& source) { return !isWanted(options, source); }),
+                sources.end());
+  return sources;
+}
+
+constexpr std::string_view kBagMagic = "#ROSBAG V2.0";
+
+/// Goes through all of an archive: it must be whole, and its names must not point out of it.
+void requireArchive(const std::string& path) {
+  ArchiveReader archive(path);
+  if (!archive.next()) throw pcrb::InvalidFile(path, 0, "an empty archive", "files in it");
+  while (archive.next()) continue;
+}
+
+void requireLog(const Source& source, const std::string& path) {
+  if (beginsLikeHtml(path)) throw pcrb::InvalidFile(path, 0, "an HTML page", "a log");
+  if (fs::path(source.file).extension() != ".bag") return;
+  std::string magic(kBagMagic.size(), ' ');
+  std::ifstream(path, std::ios::binary).read(magic.data(), static_cast<long>(magic.size()));
+  if (magic != kBagMagic) throw pcrb::InvalidFile(path, 0, "another beginning", "a bag of ROS 1");
+}
+
+/// The whole file must be what its kind is: a page of HTML with a good name is not.
+void requireContent(const Source& source, const std::string& path) {
+  if (source.bytes && fs::file_size(path) != *source.bytes) {
+    throw pcrb::InvalidFile(path, 0, std::to_string(fs::file_size(path)) + " bytes",
+                            std::to_string(*source.bytes));
+  }
+  switch (source.kind) {
+    case SourceKind::kCloud:
+      pcrb::readPcd(path);
+      return;
+    case SourceKind::kProblems:
+      pcrb::readProblemFile(path);
+      return;
+    case SourceKind::kClouds:
+      return requireArchive(path);
+    case SourceKind::kLog:
+      return isArchiveName(source.file) ? requireArchive(path) : requireLog(source, path);
+  }
+}
+
+/// One run of the tool.
+class Fetch {
+ public:
+  Fetch(const FetchOptions& options, std::ostream& out)
+      : options_(options),
+        out_(out),
+        sources_(findWanted(options)),
+        checksums_(options.logs + "/SHA256SUMS") {}
+
+  bool run() {
+    if (options_.dry_run) return describe();
+    for (const Source& source : sources_) {
+      try {
+        fetch(source);
+        install(source);
+      } catch (const pcrb::Error& error) {
+        out_ << "error: " << error.what() << std::endl;
+        ++failures_;
+        incomplete_.insert(nameOf(source));
+      }
+    }
+    out_ << sources_.size() - failures_ << " of " << sources_.size() << " files are there"
+         << std::endl;
+    const bool is_sound = !options_.prepare || prepare();
+    return failures_ == 0 && is_sound;
+  }
+
+ private:
+  std::string pathOf(const Source& source) const { return options_.logs + "/" + source.file; }
+
+  /// A file of the user's: under its name with or without folders.
+  std::string findByHand(const Source& source) const {
+    if (options_.from.empty()) return "";
+    const fs::path from = fs::absolute(options_.from);
+    for (const fs::path& name : {fs::path(source.file), fs::path(source.file).filename()}) {
+      if (fs::is_regular_file(from / name)) return (from / name).string();
+    }
+    return "";
+  }
+
+  bool describe() const {
+    for (const Source& source : sources_) {
+      out_ << nameOf(source) << ": ";
+      const std::string by_hand = findByHand(source);
+      if (fs::is_regular_file(pathOf(source))) {
+        out_ << "is there: " << pathOf(source);
+      } else if (!by_hand.empty()) {
+        out_ << "take " << by_hand;
+      } else if (!source.url.empty()) {
+        out_ << "download " << source.url << " to " << pathOf(source);
+      } else {
+        out_ << "needs you: " << source.by_hand << "; there = " << pathOf(source);
+      }
+      out_ << "\n";
+    }
+    out_ << sources_.size() << " files; nothing was done (--dry-run)" << std::endl;
+    return true;
+  }
+
+  void fetch(const Source& source) {
+    const std::string path = pathOf(source);
+    if (!fs::is_regular_file(path)) {
+      const std::string by_hand = findByHand(source);
+      if (!by_hand.empty()) {
+        requireContent(source, by_hand);
+        fs::create_directories(fs::path(path).parent_path());
+        fs::remove(path);  // a link to a file that is gone
+        fs::create_symlink(by_hand, path);
+      } else if (source.url.empty()) {
+        throw pcrb::InvalidParameter(nameOf(source) + " cannot be downloaded: " + source.by_hand +
+                                     "; there = " + path + ", or a folder for --from");
+      } else {
+        downloadTo(source, path);
+      }
+    }
+    checksums_.check(source.file, path, source.sha256);
+  }
+
+  void downloadTo(const Source& source, const std::string& path) const {
+    Progress progress(source.file, "bytes", 0);
+    DownloadPolicy policy = options_.policy;
+    policy.on_progress = [&](std::uint64_t done, std::uint64_t total) {
+      progress.set(done, total);
+    };
+    download({source.url, path, source.google_drive, source.bytes,
+              [&](const std::string& part) { requireContent(source, part); }},
+             policy);
+    progress.finish();
+  }
+
+  void install(const Source& source) {
+    const std::string folder = options_.root + "/" + nameOf(source);
+    switch (source.kind) {
+      case SourceKind::kLog:
+        addLog(source);
+        return;
+      case SourceKind::kClouds: {
+        Progress progress(nameOf(source), "clouds", 0);
+        unpackClouds(pathOf(source), checksums_.find(source.file), folder, [&] { progress.add(); });
+        progress.finish();
+        break;
+      }
+      case SourceKind::kCloud:
+        copy(pathOf(source), folder + "/" + fs::path(source.file).filename().string());
+        break;
+      case SourceKind::kProblems:
+        copy(pathOf(source), options_.root + "/" + source.data_set + "/" +
+                                 fs::path(source.file).filename().string());
+        with_problems_.insert(nameOf(source));
+        break;
+    }
+  }
+
+  /// Converters find text files, such as poses, beside the log that they belong to.
+  void addLog(const Source& source) {
+    SequenceLog& log = logs_[nameOf(source)];
+    log.data_set = source.data_set;
+    log.sequence = source.sequence;
+    if (fs::path(source.file).extension() != ".txt") log.inputs.push_back(pathOf(source));
+  }
+
+  /// Never replaces a file that is something else: it may be the user's own.
+  static void copy(const std::string& from, const std::string& to) {
+    const pcrb::FileBytes bytes(from);
+    if (fs::exists(to)) {
+      if (pcrb::FileBytes(to).text() == bytes.text()) return;
+      throw pcrb::InvalidFile(
+          to, "is there and is not what was published (" + from + "); move it away first");
+    }
+    fs::create_directories(fs::path(to).parent_path());
+    pcrb::writeFileAtomically(to, bytes.text());
+  }
+
+  bool prepare() const {
+    bool is_sound = true;
+    for (const auto& [name, log] : logs_) {
+      if (incomplete_.count(name) > 0) {
+        out_ << name << ": not converted, as not all of its files are there" << std::endl;
+        is_sound = false;
+      } else if (!options_.convert(log)) {
+        out_ << "error: " << name << ": its conversion failed" << std::endl;
+        is_sound = false;
+      }
+    }
+    if (with_problems_.empty()) return is_sound;
+    CheckOptions check;
+    check.root = options_.root;
+    check.sequences.assign(with_problems_.begin(), with_problems_.end());
+    check.threads = options_.threads;
+    return runCheckTool(check, out_) && is_sound;
+  }
+
+  const FetchOptions& options_;
+  std::ostream& out_;
+  std::vector<Source> sources_;
+  Checksums checksums_;
+  std::map<std::string, SequenceLog> logs_;  ///< by sequence
+  std::set<std::string> incomplete_;         ///< sequences that lack a file
+  std::set<std::string> with_problems_;      ///< sequences whose problem files are there
+  std::size_t failures_ = 0;
+};
+
+}  // namespace
+
+bool runFetchTool(const FetchOptions& options, std::ostream& out) {
+  return Fetch(options, out).run();
+}
+
+}  // namespace pcrb_tools

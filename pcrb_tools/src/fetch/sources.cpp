@@ -1,0 +1,153 @@
+#include "pcrb_tools/fetch/sources.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_tools/archive_reader.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+std::size_t lineOf(const YAML::Mark& mark) {
+  return mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1;
+}
+
+/// Reads one list of sources; every mistake names its line.
+class SourceReader {
+ public:
+  explicit SourceReader(std::string path) : path_(std::move(path)) {}
+
+  std::vector<Source> read() {
+    const pcrb::FileBytes file(path_);
+    try {
+      const YAML::Node list = YAML::Load(std::string(file.text()))["sources"];
+      if (!list || !list.IsSequence()) fail(list, "no list", "`sources`, a list of files");
+      std::vector<Source> sources;
+      for (const YAML::Node& node : list) sources.push_back(readSource(node));
+      return sources;
+    } catch (const YAML::Exception& error) {
+      throw pcrb::InvalidFile(path_, lineOf(error.mark), error.msg, "YAML");
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const YAML::Node& node, const std::string& found,
+                         const std::string& expected) const {
+    throw pcrb::InvalidFile(path_, node ? lineOf(node.Mark()) : 0, found, expected);
+  }
+
+  std::string text(const YAML::Node& node) const {
+    if (!node.IsScalar() || node.Scalar().empty()) fail(node, "no text", "a text");
+    return node.Scalar();
+  }
+
+  /// A name that stays below its folder.
+  std::string plainName(const YAML::Node& node) const {
+    const std::string name = text(node);
+    try {
+      if (requirePlainEntryName(name, path_) == name) return name;
+    } catch (const pcrb::InvalidFile&) {
+      // said below, with the line
+    }
+    fail(node, pcrb::inQuotes(name), "a name below its folder");
+  }
+
+  template <typename T>
+  T oneOf(const YAML::Node& node, const std::map<std::string, T>& values) const {
+    const auto found = values.find(text(node));
+    if (found != values.end()) return found->second;
+    std::string expected;
+    for (const auto& [name, value] : values) expected += (expected.empty() ? "" : ", ") + name;
+    fail(node, pcrb::inQuotes(text(node)), expected);
+  }
+
+  std::string url(const YAML::Node& node) const {
+    const std::string value = text(node);
+    for (const char* scheme : {"http://", "https://", "ftp://"}) {
+      if (value.compare(0, std::string(scheme).size(), scheme) == 0) return value;
+    }
+    fail(node, pcrb::inQuotes(value), "an address of http, https or ftp");
+  }
+
+  std::string sha256(const YAML::Node& node) const {
+    const std::string value = text(node);
+    const bool is_hash =
+        value.size() == 64 && value.find_first_not_of("0123456789abcdef") == std::string::npos;
+    if (!is_hash) fail(node, pcrb::inQuotes(value), "64 hexadecimal digits");
+    return value;
+  }
+
+  std::uint64_t bytes(const YAML::Node& node) const {
+    const auto value = pcrb::parseUnsigned(text(node));
+    if (!value) fail(node, pcrb::inQuotes(text(node)), "a number of bytes");
+    return *value;
+  }
+
+  Source readSource(const YAML::Node& node) {
+    if (!node.IsMap()) fail(node, "no map", "the keys of a file");
+    Source source;
+    const std::map<std::string, std::function<void(const YAML::Node&)>> setters{
+        {"data_set", [&](const YAML::Node& value) { source.data_set = plainName(value); }},
+        {"sequence", [&](const YAML::Node& value) { source.sequence = plainName(value); }},
+        {"file", [&](const YAML::Node& value) { source.file = plainName(value); }},
+        {"url", [&](const YAML::Node& value) { source.url = url(value); }},
+        {"by_hand", [&](const YAML::Node& value) { source.by_hand = text(value); }},
+        {"sha256", [&](const YAML::Node& value) { source.sha256 = sha256(value); }},
+        {"bytes", [&](const YAML::Node& value) { source.bytes = bytes(value); }},
+        {"google_drive",
+         [&](const YAML::Node& value) {
+           source.google_drive = oneOf<bool>(value, {{"true", true}, {"false", false}});
+         }},
+        {"kind",
+         [&](const YAML::Node& value) {
+           source.kind = oneOf<SourceKind>(value, {{"log", SourceKind::kLog},
+                                                   {"clouds", SourceKind::kClouds},
+                                                   {"cloud", SourceKind::kCloud},
+                                                   {"problems", SourceKind::kProblems}});
+         }},
+        {"set", [&](const YAML::Node& value) { readSet(value, source); }}};
+    for (const auto& entry : node) {
+      const auto setter = setters.find(text(entry.first));
+      if (setter == setters.end())
+        fail(entry.first, pcrb::inQuotes(text(entry.first)), "a known key");
+      setter->second(entry.second);
+    }
+    requireComplete(node, source);
+    return source;
+  }
+
+  void readSet(const YAML::Node& node, Source& source) const {
+    const int set = oneOf<int>(node, {{"published", 1}, {"original", 2}, {"both", 3}});
+    source.is_published = (set & 1) != 0;
+    source.is_original = (set & 2) != 0;
+  }
+
+  void requireComplete(const YAML::Node& node, const Source& source) {
+    for (const char* key : {"data_set", "sequence", "set", "kind", "file"}) {
+      if (!node[key])
+        fail(node, std::string("no ") + key, "data_set, sequence, set, kind and file");
+    }
+    if (source.url.empty() == source.by_hand.empty()) {
+      fail(node, source.url.empty() ? "neither" : "both", "either url or by_hand");
+    }
+    if (!files_.insert(source.file).second) fail(node, source.file + " again", "every file once");
+  }
+
+  std::string path_;
+  std::set<std::string> files_;
+};
+
+}  // namespace
+
+std::vector<Source> readSources(const std::string& path) { return SourceReader(path).read(); }
+
+}  // namespace pcrb_tools

@@ -1,0 +1,68 @@
+#include <ros/package.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "pcrb_core/parallel.hpp"
+#include "pcrb_tools/fetch/child_process.hpp"
+#include "pcrb_tools/fetch/fetch_tool.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+namespace {
+
+/// The converter of a log's data set lies beside this program.
+std::vector<std::string> converterOf(const pcrb_tools::SequenceLog& log,
+                                     const pcrb_tools::FetchOptions& options) {
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  std::vector<std::string> command{(folder / (log.data_set + "_to_pcd")).string()};
+  command.insert(command.end(), log.inputs.begin(), log.inputs.end());
+  for (const std::string& word : {std::string("--root"), options.root, std::string("--sequence"),
+                                  log.sequence, "--threads=" + std::to_string(options.threads)}) {
+    command.push_back(word);
+  }
+  return command;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Downloads the four data sets of the benchmark with the published problem files, verifies "
+      "them "
+      "and puts them into the common layout.");
+  app.footer(
+      "Interrupted downloads go on where they stopped. SHA-256 sums are recorded in "
+      "LOGS/SHA256SUMS "
+      "when a file is seen first, and verified later.\n"
+      "KAIST's original logs need a registration: --dry-run says what to download and where to put "
+      "it.\n"
+      "Example: fetch_datasets --logs ~/logs --root ~/benchmark eth/plain tum");
+  pcrb_tools::FetchOptions options;
+  bool fetch_only = false;
+  options.threads = pcrb::processorCount();
+  app.add_option("sequences", options.sequences, "<data set> or <data set>/<sequence> [all]");
+  app.add_option("--logs", options.logs, "folder for what is downloaded")->required();
+  app.add_option("--root", options.root, "root of the common layout")->required();
+  app.add_option("--from", options.from, "folder of files that you have: they are not downloaded");
+  app.add_flag("--original", options.original,
+               "original logs, to make problems of one's own, instead of the published files");
+  app.add_flag("--dry-run", options.dry_run, "only say what would be done");
+  app.add_flag("--fetch-only", fetch_only, "do not convert and check");
+  app.add_option("--threads", options.threads, "of converters and check")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--sources", options.sources, "list of sources [config/datasets.yaml]");
+  app.add_option("--attempts", options.policy.attempts, "at a file, in a row without progress")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  return pcrb_tools::runTool(app, argc, argv, [&] {
+    if (options.sources.empty()) {
+      options.sources = ros::package::getPath("pcrb_tools") + "/config/datasets.yaml";
+    }
+    options.prepare = !fetch_only;
+    options.convert = [&](const pcrb_tools::SequenceLog& log) {
+      return pcrb_tools::runChild(converterOf(log, options)) == 0;
+    };
+    return runFetchTool(options, std::cout) ? pcrb_tools::kSuccess : pcrb_tools::kFailure;
+  });
+}
