@@ -1,0 +1,43 @@
+"""Draws a report: index.html, and figures/*.png and *.pdf, from the numbers in report.json; computes none itself.
+
+Usage: python3 draw_report.py FOLDER [--no-figures]
+"""
+import json
+import os
+import pathlib
+import sys
+
+import jinja2
+import page
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def write(path, text):
+    """The file appears complete or not at all."""
+    temporary = path.with_name(f'.{path.name}.tmp')
+    temporary.write_text(text, encoding='utf-8')
+    os.replace(temporary, path)
+
+
+def draw_page(report):
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
+                                     undefined=jinja2.StrictUndefined)
+    environment.filters.update(page.FILTERS)
+    static = {name: page.trusted((HERE / f'page.{name}').read_text(encoding='utf-8')) for name in ('css', 'js')}
+    sections = [page.view(section) for section in report['sections']]
+    return environment.get_template('page.html.j2').render(
+        title=report['title'], version=report['version'], sections=sections, **static)
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    report = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
+    write(folder / 'index.html', draw_page(report))
+    if '--no-figures' not in sys.argv[2:]:
+        import figures  # matplotlib takes its time
+        figures.draw(report, folder / 'figures')
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,162 @@
+"""What the page's template shows of a section of report.json: charts, and numbers in other arrangements."""
+from markupsafe import Markup
+
+import charts
+from svg import error
+
+PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('solved', 'solved'),
+         ('dependence', 'dependence'), ('distributions', 'distributions'), ('axes', 'axes'), ('times', 'times'),
+         ('overlap', 'overlap'), ('problems', 'problems'), ('published', 'published')]
+HEADINGS = {'sequence': 'Sequences', 'data set': 'Data sets', 'group': 'By characteristic', 'total': 'All problems'}
+LEVEL = 0.05  # of significance
+
+
+def trusted(text):
+    return Markup(text)
+
+
+def probability(p):
+    return '–' if p is None else '< 0.001' if p < 0.001 else f'{p:.3f}'
+
+
+def cell(value, form):
+    if value is None or value == '':
+        return '–'
+    if form == 'probability':
+        return probability(value)
+    if form in ('fraction', 'seconds'):
+        return f'{value:.3f}'
+    if form == 'published':
+        return f'{value:.2f}'
+    return error(value) if form == 'error' else str(value)
+
+
+FILTERS = {'error': error, 'cell': cell}
+
+
+def milliseconds(seconds):
+    return f'{1000 * seconds:.3g} ms' if seconds < 1 else f'{seconds:.3g} s'
+
+
+def only_totals(table):
+    place = [column['name'] for column in table['columns']].index('selection')
+    return {**table, 'rows': [row for row in table['rows'] if row[place] == 'total']}
+
+
+def cards_of(section, scores):
+    latencies = {}
+    if 'runtimes' in section['tables']:
+        for row in charts.rows_of(section['tables']['runtimes']):
+            if row['selection'] == 'total' and row['median'] is not None:
+                latencies[row['method']] = milliseconds(row['median'])
+    planned = {m['method']: m['planned'] for m in section['methods']}
+    for row in scores:
+        if row['selection'] == 'total':
+            missing = int(planned[row['method']] or 0) - row['problems'] if section['is_only_kind'] else 0
+            yield {**row, 'latency': latencies.get(row['method']), 'missing': max(missing, 0)}
+
+
+def worse_than(comparisons, selection):
+    """Which method was shown to be worse than which: pairs (worse, better)."""
+    found = set()
+    for row in comparisons:
+        if row['selection'] == selection and row['corrected p'] < LEVEL and row['difference']:
+            pair = (row['b'], row['a']) if row['difference'] < 0 else (row['a'], row['b'])
+            found.add(pair)
+    return found
+
+
+def pivot_of(section, scores, comparisons, published):
+    """Rows: selections, a heading before each level. Cells: a method's median, whether it is among the best."""
+    names = [method['method'] for method in section['methods']]
+    by_cell = {(row['selection'], row['level'], row['method']): row for row in scores}
+    level = None
+    for selection in section['selections']:
+        if selection['level'] != level:
+            level = selection['level']
+            yield {'heading': HEADINGS[level]}
+        cells = [by_cell.get((selection['name'], level, name)) for name in names]
+        known = [c for c in cells if c]
+        best = min(known, key=lambda c: c['median'])['method'] if len(names) > 1 else None
+        worse = worse_than(comparisons, selection['name'])
+        is_tested = level == 'sequence' or selection['name'] == 'total'
+        for c in known:
+            c['best'] = best is not None and (c['method'] == best or (is_tested and (c['method'], best) not in worse))
+        yield {'name': selection['name'], 'cells': cells,
+               'published': [published.get((name, selection['name'])) for name in section['published_columns']]}
+
+
+def verdicts_of(comparisons):
+    for row in comparisons:
+        if row['selection'] == 'total':
+            text = row['verdict']
+            other = row['b'] if text.startswith(row['a'] + ' ') else row['a']
+            text = f'{text[:-len(" is better")]} is better than {other}' if text.endswith(' is better') else (
+                f'{row["a"]} and {row["b"]}: {text}')
+            yield {'text': text, 'real': row['corrected p'] < LEVEL, 'p': probability(row['corrected p']), 'pairs': row['pairs']}
+
+
+def drawn(panels, draw):
+    return [{'name': panel['selection'], 'svg': trusted(draw(panel))} for panel in panels]
+
+
+def dependence_of(section, colors):
+    numbers, views = section['charts'], []
+    for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap')):
+        for chart in drawn(numbers[name], lambda panel, x=x_name: charts.binned(panel, colors, x)):
+            views.append({**chart, 'name': f'{chart["name"]}: error over {x_name}'})
+    return views
+
+
+def histograms_of(section, colors):
+    views = {'total': [], 'sequences': []}
+    for panel in section['charts']['histograms']:
+        for method in panel['methods']:
+            is_total = panel['selection'] == 'total'
+            views['total' if is_total else 'sequences'].append({
+                'name': method['method'] if is_total else f'{panel["selection"]}, {method["method"]}',
+                'svg': trusted(charts.histogram(method, colors[method['method']], panel['selection']))})
+    return views
+
+
+def parts_of(section):
+    """What the page's bar of links leads to: the parts that this section has."""
+    absent = {part for part, table in (('differences', 'comparisons'), ('axes', 'components'), ('times', 'runtimes'))
+              if table not in section['tables']}
+    if not section['charts']['overlaps']:
+        absent.add('overlap')
+    return [{'id': part, 'name': name} for part, name in PARTS if part not in absent]
+
+
+def view(section):
+    tables = section['tables']
+    for name in ('comparisons', 'recall', 'runtimes', 'components', 'ground_truth'):
+        tables.setdefault(name, None)
+    present = {name: table for name, table in tables.items() if table}
+    section['tables'] = present
+    colors = charts.color_of([method['method'] for method in section['methods']])
+    scores = charts.rows_of(present['scores'])
+    comparisons = charts.rows_of(present['comparisons']) if 'comparisons' in present else []
+    published = {(row['method'], row['sequence']): row['median'] for row in charts.rows_of(present['published'])}
+    section['published_columns'] = [m for m in colors if any(method == m for method, _ in published)]
+    floors = {row['sequence']: row['floor'] for row in charts.rows_of(present['ground_truth'])
+              if row['floor'] is not None} if 'ground_truth' in present else {}
+    section['is_only_kind'] = all(m['planned'] is None or int(m['planned']) >= m['problems'] for m in section['methods'])
+    made = {
+        'colors': colors, 'floors': floors, 'parts': parts_of(section), 'tables': tables,
+        'cards': list(cards_of(section, scores)),
+        'bars': trusted(charts.median_bars(scores, colors, floors)),
+        'pivot': list(pivot_of(section, scores, comparisons, published)),
+        'verdicts': list(verdicts_of(comparisons)),
+        'solved': trusted(charts.solved_curves(section, colors)),
+        'dependence': dependence_of(section, colors),
+        'histograms': histograms_of(section, colors),
+        'overlaps': drawn(section['charts']['overlaps'], charts.overlaps),
+        'recall_totals': only_totals(present['recall']) if 'recall' in present else None,
+        'runtime_totals': only_totals(present['runtimes']) if 'runtimes' in present else None,
+        'latencies': trusted(charts.latencies(present['runtimes'], colors)) if 'runtimes' in present else None,
+    }
+    if 'components' in present:
+        made['translation'] = trusted(charts.components(present['components'], colors, ['x', 'y', 'z'], 'm'))
+        made['rotation'] = trusted(charts.components(present['components'], colors, ['roll', 'pitch', 'yaw'], 'degrees'))
+    return {**section, **made}

@@ -1,0 +1,77 @@
+#include "report/catalog.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "pcrb_core/problem/dataset.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+struct Sequence {
+  const char* name;
+  const char* data_set;
+  const char* environment;
+  const char* structure;
+};
+
+/// The paper's sequences in the order of its tables. Environment and structure as their authors
+/// describe them: Pomerleau et al., Challenging data sets for point cloud registration algorithms,
+/// 2012 (eth); Tong et al., The Canadian planetary emulation terrain 3D mapping dataset, 2013
+/// (planetary); Sturm et al., A benchmark for the evaluation of RGB-D SLAM systems, 2012 (tum);
+/// Jeong et al., Complex urban dataset, 2019 (kaist).
+constexpr std::array<Sequence, 15> kSequences{{
+    {"plain", "eth", "outdoor", "unstructured"},
+    {"stairs", "eth", "indoor and outdoor", "structured"},
+    {"apartment", "eth", "indoor", "structured"},
+    {"hauptgebaude", "eth", "indoor", "structured"},
+    {"wood_autumn", "eth", "outdoor", "unstructured"},
+    {"wood_summer", "eth", "outdoor", "unstructured"},
+    {"gazebo_summer", "eth", "outdoor", "semi-structured"},
+    {"gazebo_winter", "eth", "outdoor", "semi-structured"},
+    {"box_met", "planetary", "outdoor", "unstructured"},
+    {"p2at_met", "planetary", "outdoor", "unstructured"},
+    {"planetary_map", "planetary", "outdoor", "unstructured"},
+    {"pioneer_slam", "tum", "indoor", "structured"},
+    {"pioneer_slam3", "tum", "indoor", "structured"},
+    {"long_office_household", "tum", "indoor", "structured"},
+    {"urban05", "kaist", "outdoor", "structured"},
+}};
+
+const Sequence* find(const std::string& name) {
+  const auto* found = std::find_if(kSequences.begin(), kSequences.end(),
+                                   [&](const Sequence& sequence) { return sequence.name == name; });
+  return found == kSequences.end() ? nullptr : found;
+}
+
+}  // namespace
+
+std::size_t publishedPlace(const std::string& sequence) {
+  const Sequence* known = find(sequence);
+  return known == nullptr ? kSequences.size() : static_cast<std::size_t>(known - kSequences.data());
+}
+
+std::string publishedDataSet(const std::string& sequence) {
+  const Sequence* known = find(sequence);
+  return known == nullptr ? "own" : known->data_set;
+}
+
+std::vector<std::string> characteristicsOf(const std::string& root, const std::string& data_set,
+                                           const std::string& sequence) {
+  std::vector<std::string> words;
+  const auto add = [&](const std::string& word) {
+    const bool is_new = std::find(words.begin(), words.end(), word) == words.end();
+    if (!word.empty() && is_new) words.push_back(word);
+  };
+  const Sequence* known = find(sequence);
+  if (known != nullptr && data_set == known->data_set) {
+    add(known->environment);
+    add(known->structure);
+  }
+  const pcrb::Dataset dataset = pcrb::loadDataset(root.empty() ? "/nonexistent" : root, data_set);
+  add(dataset.sensor);
+  for (const std::string& word : dataset.characteristics) add(word);
+  return words;
+}
+
+}  // namespace pcrb_tools

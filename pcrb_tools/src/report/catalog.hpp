@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pcrb_tools {
+
+/// Place of a sequence in the paper's tables; those that are not in them come after all that are.
+std::size_t publishedPlace(const std::string& sequence);
+
+/// Data set of a sequence of the paper, else `own`.
+std::string publishedDataSet(const std::string& sequence);
+
+/// What a sequence has in common with others, to group results by: environment and structure of the
+/// paper's sequences, sensor and characteristics of its data set (`dataset.yaml` below `root`).
+///
+/// @param root  empty = only what is built in.
+std::vector<std::string> characteristicsOf(const std::string& root, const std::string& data_set,
+                                           const std::string& sequence);
+
+}  // namespace pcrb_tools

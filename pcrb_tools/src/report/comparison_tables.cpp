@@ -1,0 +1,169 @@
+#include "report/comparison_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "pcrb_core/evaluation/correlation.hpp"
+#include "pcrb_core/evaluation/paired_test.hpp"
+#include "pcrb_core/evaluation/statistics.hpp"
+#include "report/published.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+/// Two methods' errors on the problems that both have.
+struct SharedErrors {
+  std::map<std::string, std::array<std::vector<double>, 2>> by_pair;
+  std::size_t problems = 0;
+};
+
+SharedErrors sharedErrors(const Entry& a, const Entry& b, const Selection& selection) {
+  std::map<pcrb::ProblemKey, double> of_b;
+  for (const ScoredProblem* problem : select(b, selection)) of_b[problem->key] = problem->error;
+  SharedErrors shared;
+  for (const ScoredProblem* problem : select(a, selection)) {
+    const auto found = of_b.find(problem->key);
+    if (found == of_b.end()) continue;
+    auto& errors = shared.by_pair[problem->pair];
+    errors[0].push_back(problem->error);
+    errors[1].push_back(found->second);
+    ++shared.problems;
+  }
+  return shared;
+}
+
+struct Comparison {
+  const Entry* a;
+  const Entry* b;
+  const Selection* selection;
+  std::size_t problems = 0;
+  std::size_t pairs = 0;
+  double difference = 0.0;  ///< median over pairs of a's median error minus b's
+  pcrb::PairedTest test;
+};
+
+Comparison compare(const Entry& a, const Entry& b, const Selection& selection) {
+  const SharedErrors shared = sharedErrors(a, b, selection);
+  std::vector<double> differences;
+  for (const auto& [pair, errors] : shared.by_pair) {
+    differences.push_back(pcrb::describe(errors[0]).median - pcrb::describe(errors[1]).median);
+  }
+  Comparison comparison{&a, &b, &selection, shared.problems, differences.size(), 0.0, {}};
+  comparison.test = pcrb::wilcoxon(differences);
+  comparison.difference = pcrb::describe(std::move(differences)).median;
+  return comparison;
+}
+
+std::string verdict(const Comparison& comparison, double corrected_p) {
+  if (corrected_p >= kSignificance) return "no difference shown";
+  const std::string& better =
+      comparison.difference < 0.0 ? comparison.a->method : comparison.b->method;
+  return comparison.difference == 0.0 ? "differ, no median difference" : better + " is better";
+}
+
+void addFamily(const Section& section, const std::vector<const Selection*>& selections,
+               Table& table) {
+  std::vector<Comparison> family;
+  std::vector<double> p_values;
+  for (const Selection* selection : selections) {
+    for (auto a = section.entries.begin(); a != section.entries.end(); ++a) {
+      for (auto b = a + 1; b != section.entries.end(); ++b) {
+        const Comparison comparison = compare(**a, **b, *selection);
+        if (comparison.pairs == 0) continue;
+        family.push_back(comparison);
+        p_values.push_back(comparison.test.p_value);
+      }
+    }
+  }
+  const std::vector<double> corrected = pcrb::holmAdjusted(p_values);
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    const Comparison& row = family[i];
+    table.rows.push_back({row.a->method, row.b->method, row.selection->name, row.problems,
+                          row.pairs, number(row.difference), row.test.p_value, corrected[i],
+                          verdict(row, corrected[i])});
+  }
+}
+
+/// Correlation of the error with a property of the problems that have it.
+template <typename Property>
+pcrb::Correlation correlate(const Problems& problems, bool answered_only,
+                            const Property& property) {
+  std::vector<double> x, y;
+  for (const ScoredProblem* problem : problems) {
+    const std::optional<double> value = property(*problem);
+    if (!value || (answered_only && !problem->isAnswered())) continue;
+    x.push_back(*value);
+    y.push_back(problem->error);
+  }
+  return pcrb::spearman(x, y);
+}
+
+void appendCorrelations(const Problems& problems, bool answered_only, std::vector<Json>& row) {
+  const auto misalignment = correlate(problems, answered_only, [](const ScoredProblem& problem) {
+    return problem.initial_misalignment;
+  });
+  const auto overlap = correlate(problems, answered_only,
+                                 [](const ScoredProblem& problem) { return problem.overlap; });
+  row.emplace_back(std::max(misalignment.count, overlap.count));
+  for (const auto& correlation : {misalignment, overlap}) {
+    row.push_back(number(correlation.rho));
+    row.push_back(number(correlation.p_value));
+  }
+}
+
+}  // namespace
+
+Table comparisonTable(const Section& section) {
+  Table table{
+      "comparisons",
+      "Which differences are real",
+      "Wilcoxon's signed-rank test, pairs of clouds as units; p corrected by Holm among the "
+      "totals, and among all rows of single sequences. difference: median over pairs of a's "
+      "median error minus b's.",
+      {{"a"},
+       {"b"},
+       {"selection"},
+       {"problems", Format::kCount},
+       {"pairs", Format::kCount},
+       {"difference", Format::kError},
+       {"p", Format::kProbability},
+       {"corrected p", Format::kProbability},
+       {"verdict"}},
+      {}};
+  addFamily(section, {section.at({"total"}).front()}, table);
+  addFamily(section, section.at({"sequence"}), table);
+  return table;
+}
+
+Table correlationTable(const Section& section) {
+  Table table{
+      "correlations",
+      "What the error depends on",
+      "Spearman's rank correlation of the error with the initial misalignment and with the "
+      "overlap. Look at single sequences first: overlaps are not comparable between data "
+      "sets, and pooling hides their effect. `answered` leaves out problems without a valid "
+      "reply, whose error is their misalignment.",
+      {{"method"}, {"selection"}},
+      {}};
+  for (const std::string suffix : {"", " (answered)"}) {
+    table.columns.push_back({"n" + suffix, Format::kCount});
+    for (const char* name : {"misalignment", "overlap"}) {
+      table.columns.push_back({std::string("rho ") + name + suffix, Format::kFraction});
+      table.columns.push_back({std::string("p ") + name + suffix, Format::kProbability});
+    }
+  }
+  for (const Entry* entry : section.entries) {
+    for (const Selection* selection : section.at({"sequence", "total"})) {
+      const Problems problems = select(*entry, *selection);
+      if (problems.empty()) continue;
+      std::vector<Json> row{entry->method, selection->name};
+      appendCorrelations(problems, false, row);
+      appendCorrelations(problems, true, row);
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+}  // namespace pcrb_tools

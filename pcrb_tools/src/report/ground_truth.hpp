@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pcrb_tools {
+
+/// Accuracy of one sequence's ground truth, as evaluate_ground_truth finds it.
+struct GroundTruth {
+  std::string data_set;
+  std::string sequence;
+  double mean = 0.0;    ///< m
+  double stddev = 0.0;  ///< m
+};
+
+/// Reads the CSV file of evaluate_ground_truth: a header with at least `data_set`, `sequence`,
+/// `mean` and `stddev`.
+/// @throws pcrb::InvalidFile  with file and line, what was found and what was expected.
+std::vector<GroundTruth> readGroundTruth(const std::string& path);
+
+}  // namespace pcrb_tools

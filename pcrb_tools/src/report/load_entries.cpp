@@ -1,0 +1,127 @@
+#include "report/load_entries.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "pcrb_core/evaluation/results_store.hpp"
+#include "report/import_results.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedFolder {
+  std::string name;
+  std::string folder;
+};
+
+NamedFolder parseRun(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  if (sign != std::string::npos && sign > 0 && !fs::exists(text) &&
+      text.substr(0, sign).find('/') == std::string::npos) {
+    return {text.substr(0, sign), text.substr(sign + 1)};
+  }
+  const fs::path folder = fs::absolute(text).lexically_normal();
+  return {(folder.has_filename() ? folder : folder.parent_path()).filename().string(), text};
+}
+
+ScoredProblem fromResult(const pcrb::Result& result) {
+  ScoredProblem problem;
+  problem.key = result.key;
+  problem.source = result.source;
+  problem.target = result.target;
+  problem.overlap = result.overlap;
+  problem.outcome = result.outcome;
+  problem.reason = result.reason;
+  problem.error = result.error;
+  problem.initial_misalignment = result.initial_misalignment;
+  problem.rotation_error = result.rotation_error;
+  problem.translation_error = result.translation_error;
+  problem.runtime = result.runtime;
+  problem.solver_time = result.solver_time;
+  problem.target_changed = result.target_changed;
+  return problem;
+}
+
+/// Splits problems by kind into entries that are alike otherwise.
+void addByKind(const Entry& frame, std::vector<ScoredProblem> problems,
+               std::vector<Entry>& entries) {
+  for (const pcrb::Kind kind : {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}) {
+    Entry entry = frame;
+    entry.kind = kind;
+    for (ScoredProblem& problem : problems) {
+      if (problem.key.kind != kind) continue;
+      problem.pair = pairOf(problem);
+      entry.problems.push_back(std::move(problem));
+    }
+    if (entry.problems.empty()) continue;
+    std::sort(entry.problems.begin(), entry.problems.end(),
+              [](const auto& a, const auto& b) { return a.key < b.key; });
+    for (std::size_t i = 1; i < entry.problems.size(); ++i) {
+      if (entry.problems[i].key == entry.problems[i - 1].key) {
+        throw pcrb::InvalidFile(entry.path, 0,
+                                "problem " + entry.problems[i].key.problem_id + " of " +
+                                    entry.problems[i].key.sequence + " twice",
+                                "every problem once");
+      }
+    }
+    entries.push_back(std::move(entry));
+  }
+}
+
+void addRun(const std::string& text, std::vector<Entry>& entries) {
+  const NamedFolder run = parseRun(text);
+  const pcrb::ResultsStore store(run.folder, pcrb::ResultsStore::Access::kReadOnly);
+  Entry frame;
+  frame.method = run.name;
+  frame.path = run.folder;
+  frame.info = store.runInfo();
+  std::vector<ScoredProblem> problems;
+  for (const pcrb::Result& result : store.results()) problems.push_back(fromResult(result));
+  if (problems.empty()) throw pcrb::InvalidFile(store.path(), "holds no result yet");
+  addByKind(frame, std::move(problems), entries);
+}
+
+void requireDistinct(const std::vector<Entry>& entries) {
+  for (auto a = entries.begin(); a != entries.end(); ++a) {
+    for (auto b = entries.begin(); b != a; ++b) {
+      if (a->method == b->method && a->kind == b->kind) {
+        throw pcrb::InvalidParameter("found two runs called `" + a->method + "`, " + b->path +
+                                     " and " + a->path + ": name them apart, NAME=FOLDER");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Entry> loadEntries(const ReportOptions& options) {
+  std::vector<Entry> entries;
+  for (const std::string& run : options.runs) addRun(run, entries);
+  std::vector<Import> imports;
+  for (const std::string& path : options.imports) {
+    Import import = importResults(path, options.format);
+    const auto same = std::find_if(imports.begin(), imports.end(), [&](const Import& other) {
+      return other.method == import.method;
+    });
+    if (same == imports.end()) {
+      imports.push_back(std::move(import));
+      continue;
+    }
+    for (ScoredProblem& problem : import.problems) same->problems.push_back(std::move(problem));
+  }
+  for (Import& import : imports) {
+    Entry frame;
+    frame.method = import.method;
+    frame.path = import.path;
+    addByKind(frame, std::move(import.problems), entries);
+  }
+  if (entries.empty()) {
+    throw pcrb::InvalidParameter("found no run and no import, expected one at least");
+  }
+  requireDistinct(entries);
+  return entries;
+}
+
+}  // namespace pcrb_tools

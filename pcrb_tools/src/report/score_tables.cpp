@@ -1,0 +1,163 @@
+#include "report/score_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "pcrb_core/evaluation/bootstrap.hpp"
+#include "pcrb_core/evaluation/statistics.hpp"
+#include "report/published.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+std::array<std::size_t, 5> outcomesOf(const Problems& problems) {
+  std::array<std::size_t, 5> counts{};
+  for (const ScoredProblem* problem : problems) {
+    ++counts.at(static_cast<std::size_t>(problem->outcome));
+  }
+  return counts;
+}
+
+void appendStatistics(const pcrb::Statistics& statistics, std::vector<Json>& row) {
+  for (const double value :
+       {statistics.median, statistics.q75, statistics.q95, statistics.mean, statistics.stddev}) {
+    row.push_back(number(value));
+  }
+}
+
+std::vector<Json> scoreRow(const Entry& entry, const Selection& selection,
+                           const ReportOptions& options) {
+  const Problems problems = select(entry, selection);
+  std::vector<Json> row{entry.method, selection.name, selection.level, problems.size()};
+  for (const std::size_t count : outcomesOf(problems)) row.emplace_back(count);
+  appendStatistics(pcrb::describe(errorsOf(problems)), row);
+  pcrb::BootstrapOptions bootstrap;
+  bootstrap.resamples = options.resamples;
+  bootstrap.seed = options.seed;
+  const auto units = unitsOf(problems);
+  const auto interval = pcrb::medianInterval(errorsOf(problems), units, bootstrap);
+  row.push_back(number(interval.low));
+  row.push_back(number(interval.high));
+  row.emplace_back(units.empty() ? 0 : *std::max_element(units.begin(), units.end()) + 1);
+  return row;
+}
+
+bool hasBothKinds(const std::vector<Section>& sections, const std::string& method) {
+  std::size_t kinds = 0;
+  for (const Section& section : sections) {
+    for (const Entry* entry : section.entries) kinds += entry->method == method ? 1 : 0;
+  }
+  return kinds > 1;
+}
+
+/// Median over a sequence's sources of the metric of a translation of 1 m.
+std::optional<double> errorPerMetre(const Section& section, const Selection& selection) {
+  std::vector<double> values;
+  for (const Entry* entry : section.entries) {
+    for (const ScoredProblem* problem : select(*entry, selection)) {
+      if (problem->error_per_metre) values.push_back(*problem->error_per_metre);
+    }
+  }
+  if (values.empty()) return std::nullopt;
+  return pcrb::describe(std::move(values)).median;
+}
+
+}  // namespace
+
+Table scoreTable(const Section& section, const ReportOptions& options) {
+  Table table{"scores",
+              "Errors and outcomes",
+              "median is the score; low and high are the ends of its 95 % bootstrap interval over "
+              "pairs of clouds; stddev has n in the denominator; a problem without a valid reply "
+              "counts with its initial misalignment.",
+              {{"method"}, {"selection"}, {"level"}, {"problems", Format::kCount}},
+              {}};
+  for (std::size_t i = 0; i < 5; ++i) {
+    table.columns.push_back({pcrb::toString(static_cast<pcrb::Outcome>(i)), Format::kCount});
+  }
+  for (const char* name : {"median", "q75", "q95", "mean", "stddev", "low", "high"}) {
+    table.columns.push_back({name, Format::kError});
+  }
+  table.columns.push_back({"pairs", Format::kCount});
+  for (const Entry* entry : section.entries) {
+    for (const Selection& selection : section.selections) {
+      if (!select(*entry, selection).empty()) {
+        table.rows.push_back(scoreRow(*entry, selection, options));
+      }
+    }
+  }
+  return table;
+}
+
+Table summaryTable(const std::vector<Section>& sections) {
+  Table table{"summary",
+              "Summary",
+              "Error per sequence; the total pools problems, not sequences.",
+              {{"method"}, {"sequence"}},
+              {}};
+  for (const char* name : {"median", "q75", "q95", "mean", "stddev"}) {
+    table.columns.push_back({name, Format::kError});
+  }
+  for (const Section& section : sections) {
+    for (const Entry* entry : section.entries) {
+      std::string method = entry->method;
+      if (hasBothKinds(sections, method)) {
+        method += std::string(" (") + pcrb::toString(section.kind) + ")";
+      }
+      for (const Selection* selection : section.at({"sequence", "total"})) {
+        const Problems problems = select(*entry, *selection);
+        if (problems.empty()) continue;
+        std::vector<Json> row{method, selection->name};
+        appendStatistics(pcrb::describe(errorsOf(problems)), row);
+        table.rows.push_back(std::move(row));
+      }
+    }
+  }
+  return table;
+}
+
+Table publishedTable(const Section& section) {
+  Table table{"published",
+              "As published",
+              "Fontana et al. 2021, Tables 4-7 and 9-11, from the complete public data: to be "
+              "compared with complete runs on the same data only. urban05 was computed in float32 "
+              "at coordinates of 8e6 m, where one unit in the last place is 0.5 m: not comparable.",
+              {{"method"}, {"sequence"}},
+              {}};
+  for (const char* name : {"median", "q75", "q95", "mean", "stddev"}) {
+    table.columns.push_back({name, Format::kPublished});
+  }
+  for (const PublishedRow& published : publishedRows()) {
+    if (published.kind != section.kind) continue;
+    std::vector<Json> row{published.method, published.sequence};
+    for (const double value : published.statistics) row.emplace_back(value);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table groundTruthTable(const Section& section, const std::vector<GroundTruth>& accuracies) {
+  Table table{"ground_truth",
+              "Accuracy of the ground truth",
+              "Mean and standard deviation in m, as evaluate_ground_truth finds them. floor is the "
+              "error of a translation by the mean: methods cannot be told apart below it.",
+              {{"data set"}, {"sequence"}},
+              {}};
+  for (const char* name : {"mean", "stddev", "floor"}) {
+    table.columns.push_back({name, Format::kError});
+  }
+  for (const Selection* selection : section.at({"sequence"})) {
+    const auto& [data_set, sequence] = *selection->sequences.begin();
+    for (const GroundTruth& accuracy : accuracies) {
+      if (accuracy.data_set != data_set || accuracy.sequence != sequence) continue;
+      const auto scale = errorPerMetre(section, *selection);
+      table.rows.push_back({data_set, selection->name, accuracy.mean, accuracy.stddev,
+                            scale ? Json(accuracy.mean * *scale) : Json(nullptr)});
+    }
+  }
+  return table;
+}
+
+}  // namespace pcrb_tools

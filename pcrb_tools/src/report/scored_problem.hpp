@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/evaluation/result.hpp"
+
+namespace pcrb_tools {
+
+/// One problem and how a method did on it. What a source of results does not say is empty.
+struct ScoredProblem {
+  pcrb::ProblemKey key;
+  std::string source;
+  std::string target;
+  std::string pair;  ///< names the pair of clouds within the kind: the unit of all tests
+  std::optional<double> overlap;
+  pcrb::Outcome outcome = pcrb::Outcome::kReplied;
+  std::string reason;
+  double error = 0.0;
+  std::optional<double> initial_misalignment;
+  std::optional<double> rotation_error;     ///< rad
+  std::optional<double> translation_error;  ///< m
+  std::optional<double> runtime;            ///< s
+  std::optional<double> solver_time;        ///< s
+  bool target_changed = false;
+  std::optional<std::array<double, 6>> components;  ///< x y z (m) roll pitch yaw (rad)
+  std::optional<double> error_per_metre;  ///< the metric of a translation of 1 m of this source
+
+  bool isAnswered() const { return outcome == pcrb::Outcome::kReplied; }
+};
+
+/// The problems of one kind that one method was given.
+struct Entry {
+  std::string method;
+  pcrb::Kind kind = pcrb::Kind::kLocal;
+  std::string path;                         ///< run folder or file
+  std::map<std::string, std::string> info;  ///< of the run table; empty for imports
+  std::vector<ScoredProblem> problems;      ///< ordered by key
+};
+
+/// Names the pair of clouds: by its clouds where they are known, by the official id where it is one
+/// (31 problems belong to a pair), else every problem is a pair of its own.
+std::string pairOf(const ScoredProblem& problem);
+
+}  // namespace pcrb_tools

@@ -1,0 +1,146 @@
+#include "report/section.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "report/catalog.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+using SequenceKey = std::pair<std::string, std::string>;  // data set, sequence
+
+std::vector<SequenceKey> sequencesOf(const Section& section) {
+  std::set<SequenceKey> found;
+  for (const Entry* entry : section.entries) {
+    for (const auto& problem : entry->problems) {
+      found.insert({problem.key.data_set, problem.key.sequence});
+    }
+  }
+  std::vector<SequenceKey> ordered(found.begin(), found.end());
+  std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) {
+    return publishedPlace(a.second) < publishedPlace(b.second);
+  });
+  return ordered;
+}
+
+/// Adds a selection per value of a property, in the order in which sequences have them first.
+template <typename PropertiesOf>
+void addGroups(const std::string& level, const std::vector<SequenceKey>& sequences,
+               const PropertiesOf& propertiesOf, std::vector<Selection>& selections) {
+  std::vector<Selection> groups;
+  for (const SequenceKey& sequence : sequences) {
+    for (const std::string& property : propertiesOf(sequence)) {
+      auto group = std::find_if(groups.begin(), groups.end(),
+                                [&](const Selection& known) { return known.name == property; });
+      if (group == groups.end()) group = groups.insert(group, {property, level, {}});
+      group->sequences.insert(sequence);
+    }
+  }
+  selections.insert(selections.end(), groups.begin(), groups.end());
+}
+
+/// Removes the selections from the `known`-th on that hold the same sequences as one before them.
+void dropRepetitions(std::size_t known, std::vector<Selection>& selections) {
+  for (std::size_t i = known; i < selections.size();) {
+    const auto begin = selections.begin(), here = begin + static_cast<std::ptrdiff_t>(i);
+    const bool is_repetition = std::any_of(
+        begin, here, [&](const Selection& other) { return other.sequences == here->sequences; });
+    if (is_repetition) {
+      selections.erase(here);
+    } else {
+      ++i;
+    }
+  }
+}
+
+void addTotals(const std::vector<SequenceKey>& sequences, std::vector<Selection>& selections) {
+  Selection total{"total", "total", {sequences.begin(), sequences.end()}};
+  selections.push_back(total);
+  const SequenceKey urban{"kaist", "urban05"};  // its published figures are not comparable
+  if (total.sequences.erase(urban) == 0 || total.sequences.empty()) return;
+  total.name = "total without urban05";
+  selections.push_back(total);
+}
+
+void addSelections(const std::string& root, Section& section) {
+  using Words = std::vector<std::string>;
+  const auto sequences = sequencesOf(section);
+  std::map<std::string, int> holders;
+  for (const auto& sequence : sequences) ++holders[sequence.second];
+  for (const auto& sequence : sequences) {
+    const bool is_unique = holders[sequence.second] == 1;
+    const std::string name = (is_unique ? "" : sequence.first + "/") + sequence.second;
+    section.selections.push_back({name, "sequence", {sequence}});
+  }
+  addGroups(
+      "data set", sequences, [](const SequenceKey& key) { return Words{key.first}; },
+      section.selections);
+  const std::size_t known = section.selections.size();
+  addGroups(
+      "group", sequences,
+      [&](const SequenceKey& key) { return characteristicsOf(root, key.first, key.second); },
+      section.selections);
+  dropRepetitions(known, section.selections);
+  addTotals(sequences, section.selections);
+}
+
+}  // namespace
+
+std::vector<const Selection*> Section::at(const std::set<std::string>& levels) const {
+  std::vector<const Selection*> found;
+  for (const Selection& selection : selections) {
+    if (levels.count(selection.level) > 0) found.push_back(&selection);
+  }
+  return found;
+}
+
+std::vector<Section> makeSections(const std::vector<Entry>& entries, const std::string& root) {
+  std::vector<Section> sections;
+  for (const pcrb::Kind kind : {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}) {
+    Section section;
+    section.kind = kind;
+    for (const Entry& entry : entries) {
+      if (entry.kind == kind) section.entries.push_back(&entry);
+    }
+    if (section.entries.empty()) continue;
+    addSelections(root, section);
+    sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
+Problems select(const Entry& entry, const Selection& selection) {
+  Problems problems;
+  for (const ScoredProblem& problem : entry.problems) {
+    if (selection.sequences.count({problem.key.data_set, problem.key.sequence}) > 0) {
+      problems.push_back(&problem);
+    }
+  }
+  return problems;
+}
+
+std::vector<double> errorsOf(const Problems& problems) {
+  std::vector<double> errors;
+  for (const ScoredProblem* problem : problems) errors.push_back(problem->error);
+  return errors;
+}
+
+std::vector<std::size_t> unitsOf(const Problems& problems) {
+  std::map<std::string, std::size_t> numbers;
+  std::vector<std::size_t> units;
+  for (const ScoredProblem* problem : problems) {
+    units.push_back(numbers.emplace(problem->pair, numbers.size()).first->second);
+  }
+  return units;
+}
+
+std::string sequenceName(const Section& section, const pcrb::ProblemKey& key) {
+  for (const Selection* selection : section.at({"sequence"})) {
+    if (selection->sequences.count({key.data_set, key.sequence}) > 0) return selection->name;
+  }
+  return key.sequence;
+}
+
+}  // namespace pcrb_tools

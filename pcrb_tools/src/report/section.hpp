@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/scored_problem.hpp"
+
+namespace pcrb_tools {
+
+/// Some sequences whose problems are looked at together.
+struct Selection {
+  std::string name;
+  std::string level;  ///< `sequence`, `data set`, `group` (a characteristic) or `total`
+  std::set<std::pair<std::string, std::string>> sequences;  ///< data set, sequence
+};
+
+/// All that is compared with each other: the entries of one kind.
+struct Section {
+  pcrb::Kind kind = pcrb::Kind::kLocal;
+  std::vector<const Entry*> entries;
+  std::vector<Selection> selections;  ///< sequences, data sets, groups, total
+
+  /// Selections of some levels.
+  std::vector<const Selection*> at(const std::set<std::string>& levels) const;
+};
+
+/// One section per kind that has entries. The entries must outlive it.
+///
+/// @param root  folder whose `dataset.yaml` files say characteristics; may be empty.
+std::vector<Section> makeSections(const std::vector<Entry>& entries, const std::string& root);
+
+using Problems = std::vector<const ScoredProblem*>;
+
+/// Problems of an entry that a selection holds.
+Problems select(const Entry& entry, const Selection& selection);
+
+/// Errors, and the number from 0 of each one's pair of clouds.
+std::vector<double> errorsOf(const Problems& problems);
+std::vector<std::size_t> unitsOf(const Problems& problems);
+
+/// The name of a sequence in a section: with its data set where two data sets have one of that
+/// name.
+std::string sequenceName(const Section& section, const pcrb::ProblemKey& key);
+
+}  // namespace pcrb_tools

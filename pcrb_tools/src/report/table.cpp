@@ -1,0 +1,161 @@
+#include "report/table.hpp"
+
+#include <cmath>
+
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+const char* toString(Format format) {
+  switch (format) {
+    case Format::kText:
+      return "text";
+    case Format::kCount:
+      return "count";
+    case Format::kError:
+      return "error";
+    case Format::kFraction:
+      return "fraction";
+    case Format::kProbability:
+      return "probability";
+    case Format::kSeconds:
+      return "seconds";
+    case Format::kPublished:
+      return "published";
+  }
+  return "text";
+}
+
+std::string errorText(double value) {
+  constexpr double kLargestFixed = 1e5;
+  return std::abs(value) < kLargestFixed ? pcrb::formatFixed(value, 4)
+                                         : pcrb::formatScientific(value, 2);
+}
+
+std::string probabilityText(double value) {
+  constexpr double kSmallest = 0.001;
+  return value < kSmallest ? "<0.001" : pcrb::formatFixed(value, 3);
+}
+
+/// A field of CSV, quoted where it must be.
+std::string csvField(const Json& cell) {
+  if (cell.is_null()) return "";
+  if (cell.is_number_float()) return pcrb::formatShortest(cell.get<double>());
+  if (cell.is_number()) return std::to_string(cell.get<std::int64_t>());
+  const std::string text = cell.get<std::string>();
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
+std::string latexEscaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '\\') {
+      escaped += "\\textbackslash{}";
+    } else if (c == '<' || c == '>') {
+      escaped += std::string("$") + c + "$";
+    } else if (c == '~' || c == '^') {
+      escaped += std::string("\\") + c + "{}";
+    } else {
+      if (std::string("_%&#${}").find(c) != std::string::npos) escaped += '\\';
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string markdownEscaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (std::string("|_*<`\\").find(c) != std::string::npos) escaped += '\\';
+    escaped += c == '\n' ? ' ' : c;
+  }
+  return escaped;
+}
+
+template <typename Escape>
+std::string joined(const Table& table, const std::vector<Json>* row, const char* separator,
+                   const Escape& escape) {
+  std::string line;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const Column& column = table.columns[i];
+    if (i > 0) line += separator;
+    line += escape(row == nullptr ? column.name : cellText(row->at(i), column.format));
+  }
+  return line;
+}
+
+}  // namespace
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::string cellText(const Json& cell, Format format) {
+  if (cell.is_null()) return "-";
+  if (cell.is_string()) return cell.get<std::string>();
+  if (format == Format::kCount) return std::to_string(cell.get<std::int64_t>());
+  const double value = cell.get<double>();
+  if (format == Format::kProbability) return probabilityText(value);
+  if (format == Format::kFraction) return pcrb::formatFixed(value, 3);
+  if (format == Format::kPublished) return pcrb::formatFixed(value, 2);
+  if (format == Format::kSeconds) return pcrb::formatFixed(value, 3);
+  return errorText(value);
+}
+
+std::string toCsv(const Table& table) {
+  std::string text;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    text += (i > 0 ? "," : "") + csvField(Json(table.columns[i].name));
+  }
+  text += '\n';
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + csvField(row[i]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string toMarkdown(const Table& table) {
+  std::string text = "### " + table.title + "\n\n" + table.note + "\n\n| " +
+                     joined(table, nullptr, " | ", markdownEscaped) + " |\n|";
+  for (const Column& column : table.columns) {
+    text += column.format == Format::kText ? "---|" : "---:|";
+  }
+  text += '\n';
+  for (const auto& row : table.rows) {
+    text += "| " + joined(table, &row, " | ", markdownEscaped) + " |\n";
+  }
+  return text + "\n";
+}
+
+std::string toLatex(const Table& table) {
+  std::string text = "\\begin{table}\n\\centering\n\\caption{" + latexEscaped(table.title) +
+                     "}\n\\label{tab:" + table.id + "}\n\\begin{tabular}{";
+  for (const Column& column : table.columns) text += column.format == Format::kText ? 'l' : 'r';
+  text += "}\n\\hline\n" + joined(table, nullptr, " & ", latexEscaped) + " \\\\\n\\hline\n";
+  for (const auto& row : table.rows) {
+    text += joined(table, &row, " & ", latexEscaped) + " \\\\\n";
+  }
+  return text + "\\hline\n\\end{tabular}\n\\end{table}\n\n";
+}
+
+Json toJson(const Table& table) {
+  Json json;
+  json["id"] = table.id;
+  json["title"] = table.title;
+  json["note"] = table.note;
+  json["columns"] = Json::array();
+  for (const Column& column : table.columns) {
+    Json described;
+    described["name"] = column.name;
+    described["format"] = toString(column.format);
+    json["columns"].push_back(described);
+  }
+  json["rows"] = Json::array();
+  for (const auto& row : table.rows) json["rows"].push_back(row);
+  return json;
+}
+
+}  // namespace pcrb_tools

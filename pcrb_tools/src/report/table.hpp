@@ -1,0 +1,39 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace pcrb_tools {
+
+using Json = nlohmann::ordered_json;
+
+/// How a column's numbers look to people; CSV files always have the shortest exact form.
+enum class Format { kText, kCount, kError, kFraction, kProbability, kSeconds, kPublished };
+
+struct Column {
+  std::string name;
+  Format format = Format::kText;
+};
+
+/// One table of the report. A cell is a text, a number, or null where there is no value.
+struct Table {
+  std::string id;  ///< name of its file
+  std::string title;
+  std::string note;  ///< how to read it
+  std::vector<Column> columns;
+  std::vector<std::vector<Json>> rows;
+};
+
+/// A finite number, else null.
+Json number(double value);
+
+/// A cell as people read it; `-` where there is no value.
+std::string cellText(const Json& cell, Format format);
+
+std::string toCsv(const Table& table);       ///< header and rows, RFC 4180
+std::string toMarkdown(const Table& table);  ///< title, note, table
+std::string toLatex(const Table& table);     ///< a `tabular` with its caption; needs no package
+Json toJson(const Table& table);
+
+}  // namespace pcrb_tools

@@ -1,0 +1,164 @@
+#include <filesystem>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_tools/report/report_tool.hpp"
+#include "report/charts.hpp"
+#include "report/comparison_tables.hpp"
+#include "report/detail_tables.hpp"
+#include "report/load_entries.hpp"
+#include "report/published.hpp"
+#include "report/score_tables.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kWorstShown = 100;
+
+/// What of the run table a reader of the report wants to know; secrets and hashes stay where they
+/// are.
+constexpr const char* kShownInfo[] = {"presentation", "sequences",    "subset",        "seed",
+                                      "shard",        "time_limit",   "global_guess",  "upright",
+                                      "debug",        "code_version", "metric_version"};
+
+Json describeEntry(const Entry& entry) {
+  Json json;
+  json["method"] = entry.method;
+  json["path"] = entry.path;
+  json["problems"] = entry.problems.size();
+  std::size_t answered = 0;
+  for (const ScoredProblem& problem : entry.problems) answered += problem.isAnswered() ? 1 : 0;
+  json["answered"] = answered;
+  const auto planned = entry.info.find("problems");
+  json["planned"] = planned == entry.info.end() ? Json(nullptr) : Json(planned->second);
+  json["info"] = Json::object();
+  for (const char* key : kShownInfo) {
+    const auto found = entry.info.find(key);
+    if (found != entry.info.end()) json["info"][key] = found->second;
+  }
+  return json;
+}
+
+Json describeSelections(const Section& section) {
+  Json list = Json::array();
+  for (const Selection& selection : section.selections) {
+    Json json;
+    json["name"] = selection.name;
+    json["level"] = selection.level;
+    json["sequences"] = Json::array();
+    for (const auto& [data_set, sequence] : selection.sequences) {
+      json["sequences"].push_back(data_set + "/" + sequence);
+    }
+    list.push_back(json);
+  }
+  return list;
+}
+
+Json publishedCorrelationsOf(const Section& section) {
+  Json list = Json::array();
+  for (const PublishedCorrelation& row : publishedCorrelations()) {
+    if (row.kind != section.kind) continue;
+    Json json;
+    json["method"] = row.method;
+    json["misalignment"] = row.misalignment;
+    json["overlap"] = row.overlap;
+    list.push_back(json);
+  }
+  return list;
+}
+
+/// Gathers the parts of the report and writes its files.
+class Writer {
+ public:
+  explicit Writer(const ReportOptions& options) : options_(options) {
+    std::error_code error;
+    fs::create_directories(options.output + "/tables", error);
+    if (error) {
+      throw pcrb::InvalidFile(options.output, "cannot make this folder: " + error.message());
+    }
+    json_["title"] = options.title;
+    json_["version"] = PCRB_VERSION;
+    json_["sections"] = Json::array();
+    markdown_ = "# " + options.title + "\n\n";
+    latex_ = "% " + options.title + ": tables, each ready for \\input or to be cut out\n\n";
+  }
+
+  void addSection(const Section& section, const std::vector<GroundTruth>& accuracies) {
+    kind_ = pcrb::toString(section.kind);
+    markdown_ += "## " + kind_ + " problems\n\n";
+    Json json;
+    json["kind"] = kind_;
+    json["methods"] = Json::array();
+    for (const Entry* entry : section.entries) json["methods"].push_back(describeEntry(*entry));
+    json["selections"] = describeSelections(section);
+    json["tables"] = Json::object();
+    tables_ = &json["tables"];
+    add(scoreTable(section, options_));
+    add(comparisonTable(section));
+    add(correlationTable(section));
+    add(recallTable(section, options_));
+    add(runtimeTable(section));
+    add(componentTable(section));
+    add(groundTruthTable(section, accuracies));
+    add(publishedTable(section));
+    addProblems(problemTable(section));
+    json["published_correlations"] = publishedCorrelationsOf(section);
+    json["charts"] = chartsOf(section);
+    json_["sections"].push_back(std::move(json));
+  }
+
+  void finish(const Table& summary) {
+    write("summary.csv", toCsv(summary));
+    write("report.md", markdown_);
+    write("report.tex", latex_);
+    write("report.json", json_.dump(1) + "\n");
+  }
+
+ private:
+  void add(const Table& table) {
+    if (table.rows.empty()) return;
+    write("tables/" + kind_ + "_" + table.id + ".csv", toCsv(table));
+    markdown_ += toMarkdown(table);
+    latex_ += toLatex(table);
+    (*tables_)[table.id] = toJson(table);
+  }
+
+  /// The one table that is too long for people.
+  void addProblems(Table table) {
+    write("tables/" + kind_ + "_" + table.id + ".csv", toCsv(table));
+    if (table.rows.size() > kWorstShown) {
+      table.note += " These are the worst " + std::to_string(kWorstShown) + " of " +
+                    std::to_string(table.rows.size()) + "; tables/" + kind_ + "_" + table.id +
+                    ".csv has all.";
+      table.rows.resize(kWorstShown);
+    }
+    (*tables_)[table.id] = toJson(table);
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    pcrb::writeFileAtomically(options_.output + "/" + name, text);
+  }
+
+  const ReportOptions& options_;
+  std::string kind_;
+  std::string markdown_;
+  std::string latex_;
+  Json json_;
+  Json* tables_ = nullptr;
+};
+
+}  // namespace
+
+void writeReportData(const ReportOptions& options) {
+  std::vector<GroundTruth> accuracies;
+  if (!options.ground_truth.empty()) accuracies = readGroundTruth(options.ground_truth);
+  const std::vector<Entry> entries = loadEntries(options);
+  const std::vector<Section> sections = makeSections(entries, options.root);
+  Writer writer(options);
+  for (const Section& section : sections) writer.addSection(section, accuracies);
+  writer.finish(summaryTable(sections));
+}
+
+}  // namespace pcrb_tools

@@ -1,0 +1,299 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "evaluation/some_results.hpp"
+#include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_tools/report/report_tool.hpp"
+#include "support/expect_error.hpp"
+#include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const std::string& path) { return std::string(pcrb::FileBytes(path).text()); }
+
+using Rows = std::vector<std::map<std::string, std::string>>;
+
+Rows readCsv(const std::string& path) {
+  const std::string text = read(path);
+  pcrb::LineReader lines(text, path);
+  std::string_view line;
+  std::vector<std::string_view> header, fields;
+  lines.next(line);
+  pcrb::splitAt(',', line, header);
+  Rows rows;
+  while (lines.next(line)) {
+    pcrb::splitAt(',', line, fields);
+    rows.emplace_back();
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      rows.back()[std::string(header[i])] = fields.at(i);
+    }
+  }
+  return rows;
+}
+
+class ReportTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    options_.output = folder_.file("report");
+    options_.resamples = 200;
+    options_.draw_figures = false;
+  }
+
+  /// A run of 20 pairs with two perturbations each: its errors are `error`, rising a little.
+  std::string addRun(const std::string& name, double error, std::size_t unanswered = 0) {
+    pcrb::ResultsStore store(folder_.file(name), pcrb::ResultsStore::Access::kReadWrite);
+    store.setRunInfo({{"secret", "0123456789abcdef0123456789abcdef"}, {"seed", "7"}});
+    for (std::size_t i = 0; i < 40; ++i) {
+      pcrb::Result result = pcrb_test::fullResult(std::to_string(1000 + i));
+      result.source = "scan" + std::to_string(i / 2) + ".pcd";
+      result.overlap = 0.4 + 0.01 * static_cast<double>(i);
+      result.initial_misalignment = 1.0;
+      result.error = error * (1.0 + 0.001 * static_cast<double>(i));
+      if (i < unanswered) {
+        result.outcome = pcrb::Outcome::kTimedOut;
+        result.error = result.initial_misalignment;
+        result.position.reset();
+        result.orientation.reset();
+        result.covariance.reset();
+      }
+      store.add(result);
+    }
+    return folder_.file(name);
+  }
+
+  std::string addFile(const std::string& name, const std::string& text) {
+    std::ofstream(folder_.file(name)) << text;
+    return folder_.file(name);
+  }
+
+  template <typename... Texts>
+  void expectImportFails(const std::string& text, const Texts&... expected) {
+    options_.imports = {addFile("mine_yard_local.csv", text)};
+    pcrb_test::expectError<pcrb::InvalidFile>([&] { writeReportData(options_); }, expected...);
+  }
+
+  pcrb_test::TemporaryFolder folder_;
+  ReportOptions options_;
+};
+
+TEST_F(ReportTest, ReproducesThePublishedRowsOfPpcrToTheLastPrintedDigit) {
+  PCRB_REQUIRE_SHARED_DATA();
+  const std::string folder = pcrb_test::sharedData() + "/paper_results/";
+  options_.format = "ppcr";
+  for (const std::string sequence : {"plain", "stairs", "planetary_map"}) {
+    options_.imports.push_back(folder + "ppcr_" + sequence + "_local.csv");
+  }
+  writeReportData(options_);
+  const Rows published = readCsv(folder + "tables.csv");
+  std::size_t compared = 0;
+  for (auto& row : readCsv(options_.output + "/summary.csv")) {
+    const auto same = std::find_if(published.begin(), published.end(), [&](auto other) {
+      return other["method"] == "ppcr" && other["sequence"] == row["sequence"];
+    });
+    ASSERT_NE(same, published.end());
+    if (row["sequence"] == "total") continue;
+    for (const std::string name : {"median", "q75", "q95", "mean", "stddev"}) {
+      EXPECT_EQ(pcrb::formatFixed(*pcrb::parseDouble(row[name]), 2), same->at(name))
+          << row["sequence"] << " " << name;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 15u);
+}
+
+TEST_F(ReportTest, HasTheColumnsAndTheOrderOfTheSummaryFile) {
+  options_.runs = {addRun("good", 0.1)};
+  writeReportData(options_);
+  const std::string text = read(options_.output + "/summary.csv");
+  EXPECT_EQ(text.substr(0, text.find('\n')), "method,sequence,median,q75,q95,mean,stddev");
+  const Rows rows = readCsv(options_.output + "/summary.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("method") + " " + rows[0].at("sequence"), "good plain");
+  EXPECT_EQ(rows[1].at("sequence"), "total");
+  EXPECT_EQ(*pcrb::parseDouble(rows[0].at("median")), 0.5 * (0.1 * 1.019 + 0.1 * 1.020));
+}
+
+TEST_F(ReportTest, CountsUnansweredProblemsWithTheirMisalignmentAndApart) {
+  options_.runs = {addRun("flaky", 0.1, 10)};
+  writeReportData(options_);
+  const Rows rows = readCsv(options_.output + "/tables/local_scores.csv");
+  EXPECT_EQ(rows[0].at("replied"), "30");
+  EXPECT_EQ(rows[0].at("timed_out"), "10");
+  EXPECT_EQ(rows[0].at("pairs"), "20");
+  EXPECT_EQ(*pcrb::parseDouble(rows[0].at("q95")), 1.0);
+  const Rows correlations = readCsv(options_.output + "/tables/local_correlations.csv");
+  EXPECT_EQ(correlations[0].at("n"), "40");
+  EXPECT_EQ(correlations[0].at("n (answered)"), "30");
+  EXPECT_NEAR(*pcrb::parseDouble(correlations[0].at("rho overlap (answered)")), 1.0, 1e-12);
+  EXPECT_LT(*pcrb::parseDouble(correlations[0].at("rho overlap")), 0.5);
+}
+
+TEST_F(ReportTest, SaysWhichDifferencesAreRealWithPairsOfCloudsAsUnits) {
+  options_.runs = {addRun("good", 0.1), addRun("bad", 0.2), addRun("same", 0.1)};
+  writeReportData(options_);
+  const Rows rows = readCsv(options_.output + "/tables/local_comparisons.csv");
+  ASSERT_EQ(rows.size(), 6u);  // three pairs of methods, in total and on the one sequence
+  EXPECT_EQ(rows[0].at("verdict"), "good is better");
+  EXPECT_EQ(rows[0].at("pairs"), "20");
+  EXPECT_EQ(rows[0].at("problems"), "40");
+  EXPECT_EQ(rows[1].at("verdict"), "no difference shown");
+  EXPECT_EQ(rows[2].at("verdict"), "same is better");
+}
+
+TEST_F(ReportTest, WritesTheSameBytesForTheSameInput) {
+  options_.runs = {addRun("good", 0.1), addRun("bad", 0.2, 3)};
+  runReportTool(options_);
+  std::map<std::string, std::string> first;
+  for (const auto& entry : fs::recursive_directory_iterator(options_.output)) {
+    if (entry.is_regular_file()) first[entry.path()] = read(entry.path());
+  }
+  EXPECT_GE(first.size(), 10u);
+  fs::remove_all(options_.output);
+  runReportTool(options_);
+  for (const auto& [path, text] : first) EXPECT_TRUE(read(path) == text) << path;
+}
+
+TEST_F(ReportTest, DrawsTheSameFiguresForTheSameInput) {
+  if (std::getenv("PCRB_LONG_TESTS") == nullptr) GTEST_SKIP() << "set PCRB_LONG_TESTS=1";
+  options_.draw_figures = true;
+  options_.runs = {addRun("good", 0.1)};
+  runReportTool(options_);
+  std::map<std::string, std::string> first;
+  for (const auto& entry : fs::directory_iterator(options_.output + "/figures")) {
+    first[entry.path()] = read(entry.path());
+  }
+  EXPECT_GE(first.size(), 10u);
+  fs::remove_all(options_.output);
+  runReportTool(options_);
+  for (const auto& [path, text] : first) EXPECT_TRUE(read(path) == text) << path;
+}
+
+TEST_F(ReportTest, TellsNeitherSecretsNorAnythingButWhatItShows) {
+  options_.runs = {addRun("good", 0.1)};
+  runReportTool(options_);
+  for (const std::string name : {"/report.json", "/index.html"}) {
+    EXPECT_EQ(read(options_.output + name).find("0123456789abcdef"), std::string::npos) << name;
+  }
+}
+
+TEST_F(ReportTest, NamesRunsAfterTheirFoldersOrAsToldAndRefusesOneNameTwice) {
+  const std::string run = addRun("good", 0.1);
+  options_.runs = {run, "mine=" + run + "/"};
+  writeReportData(options_);
+  EXPECT_EQ(readCsv(options_.output + "/summary.csv")[2].at("method"), "mine");
+  options_.runs = {run, "good=" + run};
+  PCRB_EXPECT_ERROR(pcrb::InvalidParameter, writeReportData(options_), "two runs called `good`");
+  options_.runs = {};
+  PCRB_EXPECT_ERROR(pcrb::InvalidParameter, writeReportData(options_), "found no run");
+  options_.runs = {folder_.file("nowhere")};
+  EXPECT_THROW(writeReportData(options_), pcrb::StoreError);
+}
+
+TEST_F(ReportTest, ImportsItsOwnExportedResults) {
+  const std::string run = addRun("good", 0.1, 4);
+  pcrb::ResultsStore(run, pcrb::ResultsStore::Access::kReadOnly).exportCsv();
+  options_.runs = {run};
+  options_.imports = {run + "/results.csv"};
+  writeReportData(options_);
+  Rows rows = readCsv(options_.output + "/tables/local_scores.csv");
+  const auto imported =
+      std::find_if(rows.begin(), rows.end(), [](auto row) { return row["method"] == "results"; });
+  ASSERT_NE(imported, rows.end());
+  imported->at("method") = "good";
+  EXPECT_EQ(*imported, rows[0]);
+}
+
+TEST_F(ReportTest, ImportsFilesThatSayNoMoreThanIdAndErrorUnderTheNameOfTheirSequence) {
+  options_.imports = {
+      addFile("my_yard_2_global.csv", "error,id,colour\n0.5,12,red\n0.7,13,blue\n")};
+  writeReportData(options_);
+  const Rows rows = readCsv(options_.output + "/tables/global_problems.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("method") + " " + rows[0].at("sequence"), "my yard_2");
+  EXPECT_EQ(rows[0].at("problem"), "13");  // the worst one first
+}
+
+TEST_F(ReportTest, RefusesImportsWithADefectNamingFileAndLine) {
+  expectImportFails("", "mine_yard_local.csv:1: found nothing, expected a header");
+  expectImportFails("id,error\n", "found no row");
+  expectImportFails("id,misfit\n1,2\n", ":1: found no column `error`");
+  expectImportFails("id,error,error\n1,2,3\n", ":1: found column 'error' again");
+  expectImportFails("id,error\n1,2\n2\n", ":3: found 1 fields, expected 2");
+  expectImportFails("id,error\n1,fast\n", ":2: found 'fast', expected a number >= 0");
+  expectImportFails("id,error\n1,-1\n", ":2: found '-1'");
+  expectImportFails("id,error\n1,nan\n", ":2: found 'nan'");
+  expectImportFails("id,error\n,1\n", ":2: found an empty field");
+  expectImportFails("id,error\n1,0.5\n1,0.6\n", "problem 1 of yard twice");
+  expectImportFails("id,error,outcome\n1,0.5,lost\n", ":2: ", "lost");
+  expectImportFails("id,error,kind\n1,0.5,both\n", ":2: ", "both");
+  options_.format = "ppcr";
+  expectImportFails("id,error\n1,0.5\n", ":1: found no column `initial_misalignment`");
+  expectImportFails("id,initial_misalignment,error,x\n1,2,3,4\n", ":1: found 4 columns");
+}
+
+TEST_F(ReportTest, ShowsTheFloorsOfTheGroundTruth) {
+  options_.runs = {addRun("good", 0.1)};
+  options_.ground_truth =
+      addFile("truth.csv", "data_set,sequence,pairs,mean,stddev\neth,plain,9,0.05,0.02\n");
+  writeReportData(options_);
+  const Rows rows = readCsv(options_.output + "/tables/local_ground_truth.csv");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].at("mean"), "0.05");
+  options_.ground_truth = addFile("truth.csv", "sequence,mean,stddev\nplain,0.05,0.02\n");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, writeReportData(options_), "no column `data_set`");
+  options_.ground_truth = addFile("truth.csv", "data_set,sequence,mean,stddev\neth,plain,x,1\n");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, writeReportData(options_), "truth.csv:2: found 'x'");
+}
+
+/// Standard output of a command.
+std::string outputOf(const std::string& command) {
+  std::string output;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t size = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    output.append(buffer.data(), size);
+  }
+  EXPECT_EQ(pclose(pipe), 0) << command;
+  return output;
+}
+
+TEST_F(ReportTest, PageIsOneFileThatAsksForNothingElse) {
+  options_.runs = {addRun("good", 0.1), addRun("bad", 0.2)};
+  options_.title = "A & B <tested>";
+  runReportTool(options_);
+  const std::string page = read(options_.output + "/index.html");
+  for (const std::string reference : {"src=", "@import", "url(", "http:", "https:", "fetch("}) {
+    EXPECT_EQ(page.find(reference), std::string::npos) << reference;
+  }
+  EXPECT_NE(page.find("<h1>A &amp; B &lt;tested&gt;</h1>"), std::string::npos);
+  EXPECT_NE(page.find("name=\"viewport\""), std::string::npos);
+}
+
+TEST_F(ReportTest, PageOpensInABrowserAndShowsItsNumbersOnHover) {
+  if (!fs::exists("/usr/bin/chromium")) GTEST_SKIP() << "chromium is not installed";
+  options_.runs = {addRun("good", 0.1), addRun("bad", 0.2, 5)};
+  runReportTool(options_);
+  const std::string log = folder_.file("browser.log");
+  const std::string page = outputOf(
+      "/usr/bin/chromium --headless --no-sandbox --disable-gpu --dump-dom --enable-logging=stderr "
+      "--window-size=390,800 --user-data-dir=" +
+      folder_.file("profile") + " file://" + options_.output + "/index.html 2>" + log);
+  EXPECT_NE(page.find("data-tip=\"good, plain: median 0.10"), std::string::npos);
+  EXPECT_EQ(read(log).find("CONSOLE"), std::string::npos) << read(log);
+}
+
+}  // namespace
+}  // namespace pcrb_tools

@@ -1,0 +1,45 @@
+#include <iostream>
+#include <tuple>
+
+#include "pcrb_tools/report/report_tool.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app("Compares runs: statistics, tests of differences, charts.");
+  app.footer(
+      "Writes to the output folder: index.html (one file, needs nothing else), summary.csv, "
+      "tables/*.csv, report.md, report.tex, report.json, figures/*.png and *.pdf.\n"
+      "Examples: report runs/icp runs/gicp --output report\n"
+      "          report mine=runs/2024-05-01 --output report\n"
+      "          report --import mine_plain_local.csv --format csv --output report");
+  pcrb_tools::ReportOptions options;
+  std::vector<std::tuple<double, double>> recall;
+  app.add_option("runs", options.runs, "run folders: FOLDER, or NAME=FOLDER to name a method");
+  app.add_option("--import", options.imports,
+                 "result files of others, <method>_<sequence>_<kind>.csv");
+  app.add_option(
+         "--format", options.format,
+         "of the imports. ppcr: id,initial_misalignment,error; csv: columns of results.csv, "
+         "error and problem_id at least")
+      ->check(CLI::IsMember({"csv", "ppcr"}))
+      ->capture_default_str();
+  app.add_option("--output,-o", options.output, "folder to write to")->required();
+  app.add_option("--title", options.title)->capture_default_str();
+  app.add_option("--root", options.root, "folder of the data sets [what each run says]");
+  app.add_option("--ground-truth", options.ground_truth,
+                 "CSV file of evaluate_ground_truth: the floor of each sequence");
+  app.add_option("--recall", recall, "translation (m) and rotation (degrees) [four pairs]");
+  app.add_option("--resamples", options.resamples, "of the bootstrap")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "of the bootstrap")->capture_default_str();
+  app.add_flag("!--no-figures", options.draw_figures, "no PNG and PDF figures, the page only");
+  return pcrb_tools::runTool(app, argc, argv, [&] {
+    if (!recall.empty()) options.recall_limits.clear();
+    for (const auto& [metres, degrees] : recall)
+      options.recall_limits.emplace_back(metres, degrees);
+    runReportTool(options);
+    std::cout << options.output << "/index.html" << std::endl;
+    return pcrb_tools::kSuccess;
+  });
+}
