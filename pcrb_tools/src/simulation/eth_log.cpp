@@ -57,7 +57,7 @@ std::vector<EthSequence> sequences() {
                   {"Time_in_sec, x, y, z, Intensities, 2DscanId, PointId", ",", "\n", false, false},
                   {"Time_in_sec,x,y,z,Intensities,2DscanId,PointId", ", ", "\n", false, false}});
   std::vector<Vector3d> wood_path;
-  for (double x = -3.0; x <= 16.0; x += 1.0) wood_path.emplace_back(x, woodPath(x), 1.3);
+  for (int x = -3; x <= 16; ++x) wood_path.emplace_back(x, woodPath(x), 1.3);
   list.push_back({"wood_summer",
                   describeWood,
                   wood_path,
@@ -110,9 +110,9 @@ void makeScan(const EthSequence& sequence, const LazyScene& scene, const LogOpti
   const pcrb::Transform truth = scannerPose(sequence, scene.get(), i, options);
   const double start = kScanInterval * i;
   pcrb::Random random = makeStream(options.seed, sequence.name, static_cast<std::uint64_t>(i));
-  const auto points = takeScan(
-      scene.get(), makeTiltingHokuyo(options.size.eth_lines, options.size.eth_beams),
-      [&truth](double) { return truth; }, start, random);
+  const auto points =
+      takeScan(scene.get(), makeTiltingHokuyo(options.size.eth_lines, options.size.eth_beams),
+               standAt(truth), start, random);
   const Vector3d error = PoseError(options.seed, options.ground_truth_error).at(start);
   const pcrb::Transform T_world_scanner = displaced(truth, error);
   std::string global = sequence.global_style.header + sequence.global_style.line_end;
@@ -149,19 +149,22 @@ void makePoses(const EthSequence& sequence, const LazyScene& scene, const LogOpt
   writeLogFile(output, file, text);
 }
 
+std::string numbered(const std::string& name, int number, const std::string& suffix) {
+  return name + std::to_string(number) + suffix;
+}
+
 void planSequence(const EthSequence& sequence, const LogOptions& options, LogPlan& plan) {
   const LazyScene scene = lazyScene(sequence.describe, options.seed);
   const std::string folder = "eth/" + sequence.name + "/";
   const PoseError pose_error(options.seed, options.ground_truth_error);
   for (int i = 0; i < options.size.eth_scans; ++i) {
-    const std::string number = std::to_string(i);
-    const std::vector<std::string> files{folder + "csv_global/PointCloud" + number + ".csv",
-                                         folder + "csv_local/Hokuyo_" + number + ".csv"};
+    const std::vector<std::string> files{folder + "csv_global/" + numbered("PointCloud", i, ".csv"),
+                                         folder + "csv_local/" + numbered("Hokuyo_", i, ".csv")};
     plan.jobs.push_back({files, [=](const std::string& output) {
                            makeScan(sequence, scene, options, i, output, files);
                          }});
-    plan.errors.push_back(
-        {"eth", sequence.name, "PointCloud" + number + ".pcd", pose_error.at(kScanInterval * i)});
+    plan.errors.push_back({"eth", sequence.name, numbered("PointCloud", i, ".pcd"),
+                           pose_error.at(kScanInterval * i)});
   }
   const std::string poses = folder + sequence.pose_folder + "/pose_scanner_leica.csv";
   plan.jobs.push_back({{poses}, [=](const std::string& output) {

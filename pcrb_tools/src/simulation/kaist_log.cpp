@@ -2,6 +2,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <locale>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -22,7 +24,8 @@ using Eigen::Vector3d;
 constexpr char kFolder[] = "kaist/urban05/";
 constexpr std::int64_t kClockNs = 1519102894000000000;  // Unix time of the start
 constexpr double kRevolution = 0.1;                     // s
-constexpr double kFirstPose = 0.15;                     // s; the first scan is taken before it
+constexpr double kPoseInterval = 0.01;                  // s
+constexpr std::int64_t kFirstPose = 15;                 // number; the first scan is taken before it
 constexpr double kSpeed = 4.0;                          // m/s
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kNoReturnShare = 0.02;  // of lost beams that come as records of zeros
@@ -139,11 +142,10 @@ std::string calibrationText(const Velodyne& velodyne) {
 /// Vehicle → UTM at 100 Hz.
 std::string posesText(const LogOptions& options) {
   const PoseError pose_error(options.seed, options.ground_truth_error);
-  const double end = kRevolution * (options.size.kaist_scans + 2);
+  const double length = kRevolution * (options.size.kaist_scans + 2);  // s
   std::string text;
-  for (int i = 0; kFirstPose + 0.01 * i < end; ++i) {
-    const std::int64_t since_start =
-        150000000 + static_cast<std::int64_t>(i) * 10000000 + 1217 * (i % 7);
+  for (std::int64_t i = kFirstPose; i < std::llround(length / kPoseInterval); ++i) {
+    const std::int64_t since_start = 10000000 * i + 1217 * (i % 7);
     const double time = static_cast<double>(since_start) * 1e-9;
     const pcrb::Transform pose =
         displaced(utmFromStreet() * streetFromVehicle(time), pose_error.at(time));
@@ -159,7 +161,7 @@ std::string posesText(const LogOptions& options) {
   return text;
 }
 
-LogJob textJob(const std::string& file, std::function<std::string()> text) {
+LogJob textJob(const std::string& file, const std::function<std::string()>& text) {
   return {{file}, [=](const std::string& output) { writeLogFile(output, file, text()); }};
 }
 

@@ -20,4 +20,16 @@ double drawNormal(pcrb::Random& random) {
   return radius * std::cos(kTwoPi * random.uniform());
 }
 
+Eigen::Vector3d drawBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                            pcrb::Random& random) {
+  Eigen::Vector3d drawn;
+  for (int axis = 0; axis < 3; ++axis) drawn[axis] = random.uniform(low[axis], high[axis]);
+  return drawn;
+}
+
+Eigen::Vector3d drawInBall(pcrb::Random& random) {
+  const double radius = std::sqrt(random.uniform());
+  return radius * random.direction();
+}
+
 }  // namespace pcrb_tools::simulation

@@ -98,18 +98,23 @@ void makeScan(const PlanetarySequence& sequence, const LazyScene& scene, const L
   const pcrb::Transform truth = sensorPose(sequence, scene.get(), i, options);
   const double start = kScanInterval * i;
   pcrb::Random random = makeStream(options.seed, sequence.name, static_cast<std::uint64_t>(i));
-  const auto points = takeScan(
-      scene.get(), sequence.scanner(size.planetary_lines, size.planetary_beams),
-      [&truth](double) { return truth; }, start, random);
+  const auto points =
+      takeScan(scene.get(), sequence.scanner(size.planetary_lines, size.planetary_beams),
+               standAt(truth), start, random);
   const Vector3d error = PoseError(options.seed, options.ground_truth_error).at(start);
   writeLogFile(output, files.at(0), pointsText(points));
   writeLogFile(output, files.at(1), poseText(displaced(truth, error)) + sequence.last_line);
 }
 
-/// `box_met_007` of the seventh scan.
+/// `box_met_007` of the scan with number 7.
 std::string scanName(const std::string& sequence, int i) {
   const std::string number = std::to_string(i);
   return sequence + "_" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
+}
+
+/// Where a scan's files are, without their suffix.
+std::string scanPath(const std::string& sequence, const std::string& name) {
+  return "planetary/" + sequence + "/" + name + "/" + name;
 }
 
 }  // namespace
@@ -121,7 +126,7 @@ LogPlan planPlanetaryLogs(const LogOptions& options) {
   for (const PlanetarySequence& sequence : sequences()) {
     for (int i = 0; i < options.size.planetary_scans; ++i) {
       const std::string name = scanName(sequence.name, i);
-      const std::string path = "planetary/" + sequence.name + "/" + name + "/" + name;
+      const std::string path = scanPath(sequence.name, name);
       const std::vector<std::string> files{path + ".xyz", path + ".gt"};
       plan.jobs.push_back({files, [=](const std::string& output) {
                              makeScan(sequence, scene, options, i, output, files);

@@ -46,6 +46,10 @@ pcrb::Transform atPlace(const Vector3d& position, double yaw) {
   return pose;
 }
 
+Motion standAt(const pcrb::Transform& pose) {
+  return [pose](double) { return pcrb::Transform(pose); };
+}
+
 Motion walkBetween(const Vector3d& a, const Vector3d& b, double speed, double start_time) {
   const double leg = (b - a).norm() / speed;
   const double yaw = std::atan2(b.y() - a.y(), b.x() - a.x());

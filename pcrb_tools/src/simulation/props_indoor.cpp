@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "pcrb_tools/simulation/noise.hpp"
 #include "pcrb_tools/simulation/props.hpp"
 #include "pcrb_tools/simulation/surfaces.hpp"
 
@@ -23,8 +24,9 @@ void addLegs(Prop& prop, double length, double width, double height, double inse
 
 Surface randomCover(pcrb::Random& random) {
   const float grey = static_cast<float>(random.uniform(0.15, 0.75));
-  const auto channel = [&] { return grey + static_cast<float>(random.uniform(-0.14, 0.20)); };
-  const Eigen::Vector3f color(channel(), channel(), channel());
+  const Eigen::Vector3d tint =
+      drawBetween(Vector3d::Constant(-0.14), Vector3d::Constant(0.20), random);
+  const Eigen::Vector3f color = tint.cast<float>().array() + grey;
   return {color, 0.25F + 0.5F * color.x()};
 }
 
@@ -32,8 +34,9 @@ Surface randomCover(pcrb::Random& random) {
 Prop makeThing(pcrb::Random& random) {
   const double yaw = random.uniform(0.0, kPi);
   const Surface cover = randomCover(random);
-  const auto box = [&](double x, double y, double z) {
-    return makeBox({0.0, 0.0, 0.5 * z}, {x, y, z}, cover, yaw);
+  const auto box = [&](const Vector3d& low, const Vector3d& high) {
+    const Vector3d size = drawBetween(low, high, random);
+    return makeBox({0.0, 0.0, 0.5 * size.z()}, size, cover, yaw);
   };
   switch (random.below(5)) {
     case 0:
@@ -42,11 +45,25 @@ Prop makeThing(pcrb::Random& random) {
       return {makeColumn(Vector3d::Zero(), 0.035, 0.18, cover),
               makeColumn({0.0, 0.0, 0.18}, 0.015, 0.07, cover)};
     case 2:
-      return {box(0.16, 0.22, random.uniform(0.01, 0.06))};
+      return {box({0.16, 0.22, 0.01}, {0.16, 0.22, 0.06})};
     case 3:
-      return {box(random.uniform(0.1, 0.2), random.uniform(0.1, 0.2), random.uniform(0.06, 0.2))};
+      return {box({0.10, 0.10, 0.06}, {0.20, 0.20, 0.20})};
     default:
       return {makeEllipsoid({0.0, 0.0, 0.06}, {0.06, 0.06, 0.06}, cover)};
+  }
+}
+
+/// A row of books on a board at a height, their backs to the front.
+void addBooks(Prop& shelf, double board, double depth, double width, pcrb::Random& random) {
+  const double end = 0.5 * width - random.uniform(0.05, 0.3);
+  double y = 0.03 - 0.5 * width;
+  while (y < end) {
+    const double thickness = random.uniform(0.02, 0.06);
+    const double tall = random.uniform(0.19, 0.31);
+    const double deep = random.uniform(0.14, 0.24);
+    shelf.push_back(makeBox({0.5 * (depth - deep) - 0.03, y + 0.5 * thickness, board + 0.5 * tall},
+                            {deep, thickness * 0.94, tall}, randomCover(random)));
+    y += thickness;
   }
 }
 
@@ -90,19 +107,13 @@ Prop makeBookshelf(double width, double height, pcrb::Random& random) {
   Prop shelf{makeBox({0.0, -0.5 * width, 0.5 * height}, {depth, 0.025, height}, kLightWood),
              makeBox({0.0, 0.5 * width, 0.5 * height}, {depth, 0.025, height}, kLightWood),
              makeBox({-0.5 * depth, 0.0, 0.5 * height}, {0.01, width, height}, kLightWood)};
-  for (double board = 0.05; board < height; board += 0.36) {
+  constexpr double kFirstBoard = 0.05;
+  constexpr double kBoardSpacing = 0.36;
+  const int boards = 1 + static_cast<int>((height - kFirstBoard) / kBoardSpacing);
+  for (int i = 0; i < boards; ++i) {
+    const double board = kFirstBoard + kBoardSpacing * i;
     shelf.push_back(makeBox({0.0, 0.0, board}, {depth, width, 0.025}, kLightWood));
-    if (board + 0.36 > height) break;
-    const double end = 0.5 * width - random.uniform(0.05, 0.3);
-    for (double y = 0.03 - 0.5 * width; y < end;) {
-      const double thickness = random.uniform(0.02, 0.06);
-      const double tall = random.uniform(0.19, 0.31);
-      const double deep = random.uniform(0.14, 0.24);
-      shelf.push_back(
-          makeBox({0.5 * (depth - deep) - 0.03, y + 0.5 * thickness, board + 0.013 + 0.5 * tall},
-                  {deep, thickness * 0.94, tall}, randomCover(random)));
-      y += thickness;
-    }
+    if (i + 1 < boards) addBooks(shelf, board + 0.013, depth, width, random);
   }
   return shelf;
 }
@@ -140,8 +151,7 @@ Prop makePottedPlant(pcrb::Random& random) {
   Prop plant{makeColumn({0.0, 0.0, 0.0}, 0.14, 0.26, kBrick),
              makeColumn({0.0, 0.0, 0.26}, 0.015, 0.35, kBark)};
   for (int leaf = 0; leaf < 40; ++leaf) {
-    const Vector3d center =
-        Vector3d(0.0, 0.0, 0.72) + 0.32 * std::sqrt(random.uniform()) * random.direction();
+    const Vector3d center = Vector3d(0.0, 0.0, 0.72) + 0.32 * drawInBall(random);
     plant.push_back(makeEllipsoid(center, {0.09, 0.035, 0.02}, kLeaf, random.uniform(0.0, kPi)));
   }
   return plant;
@@ -160,10 +170,11 @@ Prop makeTeddyBear() {
 }
 
 Prop makeClutter(double length, double width, int count, pcrb::Random& random) {
+  const Vector3d corner(0.5 * length, 0.5 * width, 0.0);
   Prop clutter;
   std::vector<Vector3d> feet;
   for (int i = 0; i < count; ++i) {
-    const Vector3d foot(random.uniform(-0.5, 0.5) * length, random.uniform(-0.5, 0.5) * width, 0.0);
+    const Vector3d foot = drawBetween(-corner, corner, random);
     const bool crowded = std::any_of(feet.begin(), feet.end(), [&foot](const Vector3d& other) {
       return (other - foot).norm() < 0.19;
     });

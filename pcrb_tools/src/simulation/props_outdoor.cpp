@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "pcrb_tools/simulation/noise.hpp"
 #include "pcrb_tools/simulation/props.hpp"
 #include "pcrb_tools/simulation/surfaces.hpp"
 
@@ -14,10 +15,30 @@ constexpr double kPi = 3.141592653589793;
 void addLeaves(Prop& prop, const Vector3d& center, const Vector3d& radii, int clumps,
                const Surface& leaf, pcrb::Random& random) {
   for (int i = 0; i < clumps; ++i) {
-    const Vector3d place = std::sqrt(random.uniform()) * random.direction();
+    const Vector3d place = drawInBall(random);
     const double size = random.uniform(0.06, 0.20);
     prop.push_back(makeEllipsoid(center + place.cwiseProduct(radii), {size, 0.7 * size, 0.4 * size},
                                  leaf, random.uniform(0.0, kPi)));
+  }
+}
+
+/// Pane, sill and open shutters in a front that looks along x.
+void addWindow(Prop& house, const Vector3d& center) {
+  house.push_back(makeBox(center + Vector3d(0.02, 0.0, 0.0), {0.06, 1.0, 1.2}, kGlass));
+  house.push_back(makeBox(center + Vector3d(0.10, 0.0, -0.65), {0.22, 1.3, 0.08}, kPavement));
+  house.push_back(makeBox(center + Vector3d(0.06, -0.75, 0.0), {0.06, 0.45, 1.25}, kWood));
+  house.push_back(makeBox(center + Vector3d(0.06, 0.75, 0.0), {0.06, 0.45, 1.25}, kWood));
+}
+
+/// Two slopes that meet above the middle of the house.
+void addRoof(Prop& house, double depth, double width, double height) {
+  constexpr double kSlope = 0.6;  // rad
+  const double half = 0.5 * depth + 0.4;
+  const Vector3d size(half / std::cos(kSlope), width + 0.6, 0.15);
+  const double middle = height + 0.5 * half * std::tan(kSlope) - 0.1;
+  for (const double side : {-1.0, 1.0}) {
+    house.push_back(
+        makeBox({0.5 * (side * half - depth), 0.0, middle}, size, kRoofTile, 0.0, side * kSlope));
   }
 }
 
@@ -34,8 +55,7 @@ Prop makePerson(const Surface& clothes) {
 }
 
 Prop makeTree(double height, double stem_radius, int clumps, pcrb::Random& random) {
-  const Vector3d top(random.uniform(-0.06, 0.06) * height, random.uniform(-0.06, 0.06) * height,
-                     height);
+  const Vector3d top = height * drawBetween({-0.06, -0.06, 1.0}, {0.06, 0.06, 1.0}, random);
   Prop tree{makeRod({0.0, 0.0, -0.3}, 0.5 * top, stem_radius, kBark),
             makeRod(0.5 * top, top, 0.6 * stem_radius, kBark)};
   const int branches = 5 + static_cast<int>(random.below(6));
@@ -62,8 +82,7 @@ Prop makeRock(double size, pcrb::Random& random) {
   Prop rock;
   for (int lump = 0; lump < 3; ++lump) {
     const Vector3d center = 0.22 * size * random.direction();
-    const Vector3d extent(random.uniform(0.6, 1.0) * size, random.uniform(0.5, 0.8) * size,
-                          random.uniform(0.4, 0.7) * size);
+    const Vector3d extent = size * drawBetween({0.6, 0.5, 0.4}, {1.0, 0.8, 0.7}, random);
     Shape shape = lump == 0 ? makeBox(center, 0.85 * extent, kRock)
                             : makeEllipsoid(center, 0.5 * extent, kRock);
     shape.T_world_shape.rotate(random.rotation());
@@ -92,28 +111,21 @@ Prop makeCar(const Surface& paint) {
 }
 
 Prop makeHouse(double depth, double width, double height, const Surface& wall) {
+  const double door = 0.3 * width;
   Prop house{makeBox({-0.5 * depth, 0.0, 0.5 * height}, {depth, width, height}, wall),
-             makeBox({0.03, 0.3 * width, 1.05}, {0.08, 1.0, 2.1}, kWood),
-             makeBox({0.5, 0.3 * width, 2.35}, {1.2, 1.6, 0.10}, kRender),
-             makeBox({0.35, 0.3 * width, 0.10}, {0.7, 1.4, 0.20}, kPavement)};
-  for (double floor = 0.0; floor + 2.6 < height; floor += 2.8) {
-    for (double y = 1.2 - 0.5 * width; y < 0.5 * width - 1.0; y += 2.4) {
-      if (floor == 0.0 && std::abs(y - 0.3 * width) < 1.4) continue;  // the door is there
-      const Vector3d window(0.0, y, floor + 1.6);
-      house.push_back(makeBox(window + Vector3d(0.02, 0.0, 0.0), {0.06, 1.0, 1.2}, kGlass));
-      house.push_back(makeBox(window + Vector3d(0.10, 0.0, -0.65), {0.22, 1.3, 0.08}, kPavement));
-      house.push_back(makeBox(window + Vector3d(0.06, -0.75, 0.0), {0.06, 0.45, 1.25}, kWood));
-      house.push_back(makeBox(window + Vector3d(0.06, 0.75, 0.0), {0.06, 0.45, 1.25}, kWood));
+             makeBox({0.03, door, 1.05}, {0.08, 1.0, 2.1}, kWood),
+             makeBox({0.5, door, 2.35}, {1.2, 1.6, 0.10}, kRender),
+             makeBox({0.35, door, 0.10}, {0.7, 1.4, 0.20}, kPavement)};
+  const int floors = 1 + static_cast<int>((height - 2.6) / 2.8);
+  const int windows = static_cast<int>((width - 2.2) / 2.4) + 1;
+  for (int floor = 0; floor < floors; ++floor) {
+    for (int window = 0; window < windows; ++window) {
+      const double y = 1.2 - 0.5 * width + 2.4 * window;
+      const bool at_door = floor == 0 && std::abs(y - door) < 1.4;
+      if (!at_door) addWindow(house, {0.0, y, 2.8 * floor + 1.6});
     }
   }
-  const double slope = 0.6;
-  const double half = 0.5 * depth + 0.4;
-  const double length = half / std::cos(slope);
-  const double ridge = height + 0.5 * half * std::tan(slope) - 0.1;
-  house.push_back(makeBox({-0.5 * depth + 0.5 * half, 0.0, ridge}, {length, width + 0.6, 0.15},
-                          kRoofTile, 0.0, slope));
-  house.push_back(makeBox({-0.5 * depth - 0.5 * half, 0.0, ridge}, {length, width + 0.6, 0.15},
-                          kRoofTile, 0.0, -slope));
+  addRoof(house, depth, width, height);
   return house;
 }
 

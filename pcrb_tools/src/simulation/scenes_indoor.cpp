@@ -143,7 +143,8 @@ SceneDescription describeOffice(std::uint64_t seed) {
   place(scene, makeClutter(0.6, 0.9, 5, random), {-1.35, 0.1, 0.0});
   place(scene, makeCupboard(0.45, 0.6, 0.6, kSteel), {-1.25, -0.45, 0.0}, -1.3);
   for (const double x : {-3.6, -2.3, -0.9, 0.6, 2.0, 3.4}) {
-    place(scene, makeBookshelf(1.2, random.uniform(1.5, 2.1), random), {x, 2.76, 0.0}, -0.5 * kPi);
+    const double height = random.uniform(1.5, 2.1);
+    place(scene, makeBookshelf(1.2, height, random), {x, 2.76, 0.0}, -0.5 * kPi);
   }
   place(scene, makeClutter(5.0, 0.5, 14, random), {-0.3, 2.25, 0.0});
   place(scene, makeTable(1.6, 0.7, 0.72, kLightWood), {-2.6, -2.55, 0.0});

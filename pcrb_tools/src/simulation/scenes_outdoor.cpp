@@ -14,6 +14,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.141592653589793;
+constexpr double kStreetBegin = -40.0;  // m
+constexpr double kStreetEnd = 140.0;    // m
 
 /// A ring wall around a bowl: height over the surroundings, m.
 double craterHeight(double distance, double radius) {
@@ -30,7 +32,7 @@ Vector3d onGround(const SceneDescription& scene, double x, double y) {
 void plantTrees(SceneDescription& scene, int count, double reach, pcrb::Random& random) {
   std::vector<Vector2d> stems;
   while (static_cast<int>(stems.size()) < count) {
-    const Vector2d stem(random.uniform(-reach, reach), random.uniform(-reach, reach));
+    const Vector2d stem = drawBetween({-reach, -reach, 0.0}, {reach, reach, 0.0}, random).head<2>();
     if (std::abs(stem.y() - woodPath(stem.x())) < 1.6) continue;
     const bool crowded = std::any_of(stems.begin(), stems.end(), [&stem](const Vector2d& other) {
       return (other - stem).norm() < 1.7;
@@ -39,8 +41,10 @@ void plantTrees(SceneDescription& scene, int count, double reach, pcrb::Random& 
     stems.push_back(stem);
     const double height = random.uniform(5.0, 11.0);
     const int clumps = stem.norm() < 14.0 ? 140 : 60;
-    place(scene, makeTree(height, random.uniform(0.08, 0.24), clumps, random),
-          onGround(scene, stem.x(), stem.y()), random.uniform(0.0, 2.0 * kPi));
+    const double radius = random.uniform(0.08, 0.24);
+    const double yaw = random.uniform(0.0, 2.0 * kPi);
+    const Vector3d foot = onGround(scene, stem.x(), stem.y());
+    place(scene, makeTree(height, radius, clumps, random), foot, yaw);
   }
 }
 
@@ -65,43 +69,52 @@ void layStreet(SceneDescription& scene) {
   }
 }
 
-void buildHouses(SceneDescription& scene, pcrb::Random& random) {
-  for (const double side : {-1.0, 1.0}) {
-    for (double x = -42.0; x < 140.0;) {
-      const double width = random.uniform(9.0, 15.0);
-      const double setback = random.uniform(8.6, 10.5);
-      const Surface& wall = random.uniform() < 0.4 ? kBrick : kRender;
-      place(scene, makeHouse(random.uniform(8.0, 10.0), width, random.uniform(3.2, 6.6), wall),
-            {x + 0.5 * width, side * setback, 0.1}, -0.5 * kPi * side);
-      x += width;
-      const double gap = random.uniform(2.0, 5.0);
-      scene.shapes.push_back(makeBox({x + 0.5 * gap, side * 8.2, 0.8}, {gap, 0.08, 1.4}, kWood));
-      x += gap;
-    }
+void buildHouses(SceneDescription& scene, double side, pcrb::Random& random) {
+  double x = kStreetBegin;
+  while (x < kStreetEnd) {
+    // Depth, width and height of the house.
+    const Vector3d size = drawBetween({8.0, 9.0, 3.2}, {10.0, 15.0, 6.6}, random);
+    const double setback = random.uniform(8.6, 10.5);
+    const Surface& wall = random.uniform() < 0.4 ? kBrick : kRender;
+    place(scene, makeHouse(size.x(), size.y(), size.z(), wall),
+          {x + 0.5 * size.y(), side * setback, 0.1}, -0.5 * kPi * side);
+    const double gap = random.uniform(2.0, 5.0);
+    scene.shapes.push_back(
+        makeBox({x + size.y() + 0.5 * gap, side * 8.2, 0.8}, {gap, 0.08, 1.4}, kWood));
+    x += size.y() + gap;
   }
 }
 
-void lineStreet(SceneDescription& scene, pcrb::Random& random) {
+/// Places along the street, at random distances from each other.
+std::vector<double> alongStreet(double least, double most, pcrb::Random& random) {
+  std::vector<double> places{kStreetBegin + random.uniform(0.0, most)};
+  while (places.back() < kStreetEnd) places.push_back(places.back() + random.uniform(least, most));
+  return places;
+}
+
+void addLamp(SceneDescription& scene, double x, double side) {
+  const Vector3d foot(x, side * 4.8, 0.13);
+  const Vector3d top = foot + Vector3d(0.0, 0.0, 5.95);
+  scene.shapes.push_back(makeColumn(foot, 0.07, 6.0, kSteel));
+  scene.shapes.push_back(makeRod(top, top + Vector3d(0.0, -1.4 * side, 0.2), 0.05, kSteel));
+}
+
+void lineStreet(SceneDescription& scene, double side, pcrb::Random& random) {
   const Surface paints[] = {kSilverPaint, kRedPaint, kDarkPaint, kWhitePaint};
-  for (const double side : {-1.0, 1.0}) {
-    for (double x = -38.0; x < 138.0; x += random.uniform(6.0, 11.0)) {
-      if (random.uniform() < 0.35) continue;
-      place(scene, makeCar(paints[random.below(4)]), {x, side * random.uniform(3.4, 3.6), 0.0},
-            random.uniform(-0.04, 0.04) + (side < 0.0 ? 0.0 : kPi));
-    }
-    for (double x = -36.0; x < 138.0; x += random.uniform(9.0, 14.0)) {
-      place(scene, makeTree(random.uniform(5.0, 7.5), random.uniform(0.10, 0.18), 120, random),
-            {x, side * 6.4, 0.1}, random.uniform(0.0, 2.0 * kPi));
-    }
-    for (double x = -30.0 + 6.0 * side; x < 138.0; x += 22.0) {
-      const Vector3d foot(x, side * 4.8, 0.13);
-      scene.shapes.push_back(makeColumn(foot, 0.07, 6.0, kSteel));
-      scene.shapes.push_back(makeRod(foot + Vector3d(0.0, 0.0, 5.95),
-                                     foot + Vector3d(0.0, -1.4 * side, 6.15), 0.05, kSteel));
-    }
-    for (double x = -34.0; x < 138.0; x += random.uniform(10.0, 20.0)) {
-      place(scene, makeBush(random.uniform(0.5, 0.9), 60, random), {x, side * 7.4, 0.1});
-    }
+  for (const double x : alongStreet(6.0, 14.0, random)) {
+    const double yaw = random.uniform(-0.04, 0.04) + (side < 0.0 ? 0.0 : kPi);
+    const double y = side * random.uniform(3.4, 3.6);
+    place(scene, makeCar(paints[random.below(4)]), {x, y, 0.0}, yaw);
+  }
+  for (const double x : alongStreet(9.0, 14.0, random)) {
+    const double height = random.uniform(5.0, 7.5);
+    const double radius = random.uniform(0.10, 0.18);
+    place(scene, makeTree(height, radius, 120, random), {x, side * 6.4, 0.1});
+  }
+  for (const double x : alongStreet(22.0, 24.0, random)) addLamp(scene, x, side);
+  for (const double x : alongStreet(10.0, 20.0, random)) {
+    const double radius = random.uniform(0.5, 0.9);
+    place(scene, makeBush(radius, 60, random), {x, side * 7.4, 0.1});
   }
 }
 
@@ -145,11 +158,10 @@ SceneDescription describeSandYard(std::uint64_t seed) {
   for (int i = 0; i < 320; ++i) {
     const double size = 0.16 * std::pow(1.0 - random.uniform(), -0.55);  // many small, few large
     const double reach = i < 220 ? 20.0 : kReach - 1.0;
-    const double x = random.uniform(-reach, reach);
-    const double y = random.uniform(-reach, reach);
-    const Vector3d place_of_rock = onGround(scene, x, y);
-    place(scene, makeRock(std::min(size, 1.8), random), place_of_rock,
-          random.uniform(0.0, 2.0 * kPi));
+    const Vector3d spot = drawBetween({-reach, -reach, 0.0}, {reach, reach, 0.0}, random);
+    const double yaw = random.uniform(0.0, 2.0 * kPi);
+    const Prop rock = makeRock(std::min(size, 1.8), random);
+    place(scene, rock, onGround(scene, spot.x(), spot.y()), yaw);
   }
   return scene;
 }
@@ -158,8 +170,10 @@ SceneDescription describeStreet(std::uint64_t seed) {
   pcrb::Random random = makeStream(seed, "street scene");
   SceneDescription scene;
   layStreet(scene);
-  buildHouses(scene, random);
-  lineStreet(scene, random);
+  for (const double side : {-1.0, 1.0}) {
+    buildHouses(scene, side, random);
+    lineStreet(scene, side, random);
+  }
   const auto drive = [](double start, double y, double speed) -> Motion {
     return [=](double time) {
       return atPlace({start + speed * time, y, 0.0}, speed < 0.0 ? kPi : 0.0);

@@ -27,7 +27,10 @@ class HeightField {
   double height(double x, double y) const;
 
  private:
-  float corner(int ix, int iy) const { return corners_[static_cast<std::size_t>(iy * side_ + ix)]; }
+  float corner(int ix, int iy) const {
+    return corners_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(side_) +
+                    static_cast<std::size_t>(ix)];
+  }
   std::optional<Hit> intersectCell(const Ray& ray, int ix, int iy, double enter,
                                    double leave) const;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string_view>
 
@@ -13,5 +14,15 @@ pcrb::Random makeStream(std::uint64_t seed, std::string_view name, std::uint64_t
 
 /// A sample of the standard normal distribution (Box and Muller).
 double drawNormal(pcrb::Random& random);
+
+// C++ leaves open which argument of a call is computed first: what draws more than once in an
+// expression goes through these, or through variables, so that all compilers give the same bytes.
+
+/// Uniform between two corners of a box.
+Eigen::Vector3d drawBetween(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                            pcrb::Random& random);
+
+/// Within the unit ball, the radius distributed as the root of a uniform number.
+Eigen::Vector3d drawInBall(pcrb::Random& random);
 
 }  // namespace pcrb_tools::simulation

@@ -59,6 +59,9 @@ Prop makeCar(const Surface& paint);
 /// House with windows, a door and a saddle roof; x to the street.
 Prop makeHouse(double depth, double width, double height, const Surface& wall);
 
+/// Stays where it is.
+Motion standAt(const pcrb::Transform& pose);
+
 /// Walks from a to b and back for ever, facing the way it goes. m, m/s, s.
 Motion walkBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double speed,
                    double start_time);
