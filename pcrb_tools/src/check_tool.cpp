@@ -8,6 +8,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/cloud_files.hpp"
 #include "pcrb_core/problem/dataset_check.hpp"
+#include "pcrb_tools/interruption.hpp"
 #include "pcrb_tools/progress.hpp"
 
 namespace pcrb_tools {
@@ -117,8 +118,10 @@ class FolderCache {
     }
     Progress progress(fs::path(folder).filename().string(), "clouds",
                       pcrb::findClouds(folder).size());
-    const std::vector<Finding> findings =
-        pcrb::checkClouds(folder, threads_, found->second, [&] { progress.add(); });
+    const std::vector<Finding> findings = pcrb::checkClouds(folder, threads_, found->second, [&] {
+      progress.add();
+      Interruption::check();
+    });
     progress.finish();
     report_.add(findings);
     clouds_ += found->second.size();

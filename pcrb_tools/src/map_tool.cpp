@@ -9,6 +9,7 @@
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/parallel.hpp"
 #include "pcrb_core/search/voxel_map.hpp"
+#include "pcrb_tools/interruption.hpp"
 #include "pcrb_tools/progress.hpp"
 #include "pcrb_tools/provenance.hpp"
 #include "pcrb_tools/sequence_folder.hpp"
@@ -36,6 +37,7 @@ pcrb::VoxelMap mergeClouds(const SequenceFolder& folder, double leaf, int thread
     });
     for (const pcrb::DatasetCloud& cloud : clouds) map.add(cloud);
     progress.add(n);
+    Interruption::check();
   }
   progress.finish();
   return map;
@@ -67,6 +69,7 @@ void runMapTool(const MapOptions& options) {
   if (!options.force) Provenance::requireReplaceable(options.output);
   const pcrb::VoxelMap map = mergeClouds(folder, leaf, options.threads);
   if (map.size() == 0) throw pcrb::InvalidProblem(folder.path + ": the clouds have no points");
+  provenance.begin(options.output);
   writePcd(options.output, map.cloud());
   provenance.record(options.output);
   std::cerr << options.output << ": " << map.size() << " points from " << folder.clouds.size()

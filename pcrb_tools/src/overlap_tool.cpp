@@ -9,6 +9,7 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/overlap.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
+#include "pcrb_tools/interruption.hpp"
 #include "pcrb_tools/progress.hpp"
 #include "pcrb_tools/provenance.hpp"
 #include "pcrb_tools/sequence_folder.hpp"
@@ -80,6 +81,7 @@ pcrb::OverlapMatrix computeMatrix(const SequenceFolder& folder, pcrb::OverlapJob
     setColumn(matrix, target, column);
     const auto known = std::count_if(column.begin(), column.end(), [](double v) { return v == v; });
     progress.add(static_cast<std::size_t>(known) - 1);
+    Interruption::check();
   };
   computeOverlaps(job, events);
   progress.finish();
@@ -101,7 +103,9 @@ void runOverlapTool(const OverlapOptions& options) {
   }
   if (!options.force) Provenance::requireReplaceable(output);
   OverlapJournal journal(output + ".partial", provenance.text(), folder.clouds.size());
-  writeOverlapMatrix(output, computeMatrix(folder, job, journal));
+  const pcrb::OverlapMatrix matrix = computeMatrix(folder, job, journal);
+  provenance.begin(output);
+  writeOverlapMatrix(output, matrix);
   provenance.record(output);
   journal.remove();
 }

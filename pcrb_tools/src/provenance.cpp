@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kUnfinished = "unfinished: true\n";
+
 /// A YAML scalar in single quotes.
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -22,6 +24,18 @@ std::string quoted(const std::string& text) {
 
 std::string outputLine(const std::string& output) {
   return "output_blake2b: " + pcrb::fileHash(output) + "\n";
+}
+
+/// Removes the temporary files of AtomicFile, `.NAME.PID-N.tmp`, of an output and its side file.
+void clearTemporaryFiles(const fs::path& output) {
+  const std::string start = "." + output.filename().string() + ".";
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.compare(0, start.size(), start) == 0 && entry.path().extension() == ".tmp") {
+      fs::remove(entry.path());
+    }
+  }
 }
 
 }  // namespace
@@ -69,10 +83,16 @@ void Provenance::requireReplaceable(const std::string& output) {
                             "replace it with --force");
   }
   const pcrb::FileBytes side(sideFile(output));
+  if (side.text().find(kUnfinished) != std::string_view::npos) return;
   if (side.text().find(outputLine(output)) == std::string_view::npos) {
     throw pcrb::InvalidFile(output, "was changed since it was made (" + sideFile(output) +
                                         "); move it away, or replace it with --force");
   }
+}
+
+void Provenance::begin(const std::string& output) const {
+  if (fs::is_directory(fs::absolute(output).parent_path())) clearTemporaryFiles(output);
+  pcrb::writeFileAtomically(sideFile(output), text() + kUnfinished);
 }
 
 void Provenance::record(const std::string& output) const {

@@ -14,6 +14,7 @@
 #include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_core/problem/perturbation_sampling.hpp"
 #include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_tools/interruption.hpp"
 #include "pcrb_tools/progress.hpp"
 #include "pcrb_tools/provenance.hpp"
 #include "pcrb_tools/sequence_folder.hpp"
@@ -44,6 +45,7 @@ class Centroids {
       if (cloud.points.empty()) throw pcrb::InvalidProblem(path + ": cloud has no points");
       found[i] = centroid(cloud);
       progress.add();
+      Interruption::check();
     });
     progress.finish();
     for (std::size_t i = 0; i < missing.size(); ++i) centroids_[missing[i]] = found[i];
@@ -93,6 +95,7 @@ class Sampling {
     if (!options_.force) Provenance::requireReplaceable(output);
     const pcrb::ProblemList list{sequence(), kind, drawPairs(kind), dataset_.bounds(kind)};
     centroids_.read(list.pairs);
+    provenance.begin(output);
     writeProblemFile(output, sampleProblems(list, options_.seed, centroids_));
     provenance.record(output);
     report(output, list);

@@ -31,6 +31,11 @@ class Provenance {
   ///                            somebody else made or changed it and a tool must not replace it.
   static void requireReplaceable(const std::string& output);
 
+  /// To be called before an output is written: until record(), it counts as unfinished, so that a
+  /// run after a kill makes it again instead of taking it for somebody else's. Clears temporary
+  /// files that a killed run has left.
+  void begin(const std::string& output) const;
+
   /// Writes the side file of an output that has just been written.
   void record(const std::string& output) const;
 
