@@ -201,32 +201,6 @@ free_port() {
   /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
 }
 
-# From the four data sets' original formats to registration problems.
-prepare_sample_data() {
-  local logs=$1 data=$2 sequence planetary=$2/planetary
-  rosrun pcrb_tools make_sample_logs --output "$logs"
-  for sequence in apartment wood_summer; do
-    rosrun pcrb_tools eth_to_pcd "$logs/eth/$sequence" --root "$data"
-  done
-  for sequence in box_met p2at_met; do
-    rosrun pcrb_tools planetary_to_pcd "$logs/planetary/$sequence" --root "$data"
-  done
-  for sequence in "$logs"/tum/*.bag; do
-    rosrun pcrb_tools tum_to_pcd "$sequence" --root "$data"
-  done
-  rosrun pcrb_tools kaist_to_pcd "$logs/kaist/urban05" --root "$data"
-  for sequence in "$data"/*/*/; do
-    rosrun pcrb_tools compute_overlap "${sequence%/}"
-    rosrun pcrb_tools sample_problems "${sequence%/}"
-  done
-  rosrun pcrb_tools build_map "$planetary/box_met" -o "$planetary/p2at_met/box_map.pcd"
-  rosrun pcrb_tools compute_overlap "$planetary/p2at_met" --target box_map.pcd \
-    -o "$planetary/planetary_map_overlap.txt"
-  rosrun pcrb_tools sample_problems "$planetary/p2at_met" --map box_map.pcd \
-    --overlap "$planetary/planetary_map_overlap.txt"
-  rosrun pcrb_tools check_dataset "$data"
-}
-
 show_demo() {
   build_workspace
   local logs=$root/demo/logs data=$root/demo/data run=$root/demo/run
@@ -237,9 +211,9 @@ show_demo() {
   . "$root/devel/setup.bash"
   set -u
   say "demo: simulate logs in the original formats of four data sets, and make registration problems of them"
-  # A function called in a condition would go on after a failed command, so it is not.
-  (prepare_sample_data "$logs" "$data") >"$root/demo/prepare.log" 2>&1 &
-  wait $! || { tail -5 "$root/demo/prepare.log" >&2; fail "the data could not be prepared, see above"; }
+  { rosrun pcrb_tools make_sample_logs --output "$logs" &&
+    rosrun pcrb_tools prepare_dataset --logs "$logs" --root "$data"; } >"$root/demo/prepare.log" 2>&1 ||
+    { tail -5 "$root/demo/prepare.log" >&2; fail "the data could not be prepared, see above"; }
   say "demo: prepared $(find "$data" -name '*_local.txt' | wc -l) sequences; every step is in demo/prepare.log"
   say "demo: benchmark G-ICP on 160 of their problems, over ROS topics"
   export ROS_MASTER_URI

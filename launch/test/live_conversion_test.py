@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """Converters as nodes: what rosbag play publishes becomes the same files as offline."""
 import os
+import shutil
 import struct
 import subprocess
 import sys
+import tempfile
 
 import genpy
 import rosbag
 import rosgraph
 import rospy
 import rostest
-from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
+from sensor_msgs.msg import PointCloud2, PointField
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from pcrb_testing import Child, TestCase, executable, wait_until
@@ -38,25 +40,21 @@ def cloud(nanoseconds, points, extra):
     return message
 
 
-def depth_image(nanoseconds, depths):
-    message = header(Image(), nanoseconds)
-    message.height, message.width, message.step, message.encoding = 1, len(depths), 4 * len(depths), '32FC1'
-    message.data = struct.pack(f'<{len(depths)}f', *depths)
-    return message
-
-
-def camera_info(nanoseconds):
-    message = header(CameraInfo(), nanoseconds)
-    message.D = [0.0] * 5
-    message.K = [525.0, 0.0, 0.5, 0.0, 525.0, 0.5, 0.0, 0.0, 1.0]
-    return message
-
-
 def points_of(scan):
     return [(scan + 0.25, 0.1 * i, 1.0 + i) for i in range(50)] + [(0.0, 0.0, 0.0)]
 
 
 class LiveConversionTest(TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.logs = tempfile.mkdtemp(prefix='pcrb_rostest_')
+        cls.addClassCleanup(shutil.rmtree, cls.logs)
+        subprocess.run([executable('pcrb_tools', 'make_sample_logs'), '--output', cls.logs, '--data-set', 'tum'],
+                       check=True)
+
+    def sample_log(self, sequence):
+        return os.path.join(self.logs, 'tum', f'rgbd_dataset_{sequence}')
 
     def write(self, name, text):
         with open(self.path(name), 'w') as file:
@@ -101,7 +99,8 @@ class LiveConversionTest(TestCase):
     def play(self, bag, node, topics):
         """Plays a bag once the node has subscribed, and waits until it is over."""
         self.wait_for_subscribers(node, topics)
-        player = self.start(Child(['rosbag', 'play', '--quiet', '--wait-for-subscribers', bag]))
+        player = self.start(Child(['rosbag', 'play', '--quiet', '--wait-for-subscribers', '--rate=4', bag,
+                                   '--topics', *topics]))
         self.assertEqual(player.wait(), 0, player.output())
 
     def assert_live_equals_offline(self, node, offline, data_set, interrupt=True):
@@ -120,29 +119,22 @@ class LiveConversionTest(TestCase):
                 self.assertEqual(live.read(), original.read(), name)
         return names
 
-    def test_clouds_of_an_rgbd_camera(self):
-        topic = '/camera/rgb/points'
-        bag = self.bag([(topic, cloud(100000000 * i + 7, points_of(i), 'rgb')) for i in range(SCANS)])
-        poses = self.tum_poses()
-        offline = self.convert_offline('tum_to_pcd', bag, '--poses', poses, '--max-rate', '0')
-        node = self.live('tum_to_pcd', data_set='tum', poses=poses, max_rate=0)
+    def test_clouds_of_a_sample_bag(self):
+        log, topic = self.sample_log('freiburg2_pioneer_slam'), '/camera/rgb/points'
+        bag, poses = f'{log}-2hz-with-pointclouds.bag', f'{log}-groundtruth.txt'
+        offline = self.convert_offline('tum_to_pcd', bag, '--poses', poses)
+        node = self.live('tum_to_pcd', data_set='tum', poses=poses)
         self.play(bag, node, [topic])
         names = self.assert_live_equals_offline(node, offline, 'tum')
-        self.assertEqual(names[0], f'{SECOND}.000000007.pcd')
-        self.assertEqual(len(names), SCANS)
-        self.assertIn(f'log: {SCANS} scans read, {SCANS} written, 0 dropped', node.output())
+        self.assertGreater(len(names), 5)
+        self.assertIn(f'{len(names)} written', node.output())
 
-    def test_depth_images_and_their_camera(self):
-        messages = []
-        for i in range(SCANS):
-            messages.append(('/camera/depth/image', depth_image(100000000 * i, [1.5, float('nan'), 2.0 + i])))
-            messages.append(('/camera/rgb/camera_info', camera_info(100000000 * i)))
-        bag = self.bag(messages)
-        poses = self.tum_poses()
-        offline = self.convert_offline('tum_to_pcd', bag, '--poses', poses, '--max-rate', '2.5')
-        node = self.live('tum_to_pcd', poses=poses, max_rate=2.5, input='depth', idle_limit=1.0)
-        self.play(bag, node, ['/camera/depth/image', '/camera/rgb/camera_info'])
-        self.assertEqual(len(self.assert_live_equals_offline(node, offline, 'tum', interrupt=False)), 2)
+    def test_depth_images_of_a_sample_bag_until_nothing_comes_any_more(self):
+        log = self.sample_log('freiburg3_long_office_household')
+        offline = self.convert_offline('tum_to_pcd', f'{log}.bag')
+        node = self.live('tum_to_pcd', poses=f'{log}-groundtruth.txt', input='depth', idle_limit=1.0)
+        self.play(f'{log}.bag', node, ['/camera/depth/image', '/camera/rgb/camera_info'])
+        self.assertGreater(len(self.assert_live_equals_offline(node, offline, 'tum', interrupt=False)), 5)
 
     def test_two_velodynes(self):
         messages = []

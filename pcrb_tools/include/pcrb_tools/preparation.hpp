@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/problem/dataset.hpp"
+
+namespace pcrb_tools {
+
+/// The original log of a sequence.
+struct LogSequence {
+  std::string data_set;  ///< eth, planetary, tum or kaist
+  std::string sequence;
+  std::vector<std::string> inputs;  ///< folders, archives and bags for the data set's converter
+};
+
+/// The logs below `<logs>/{eth,planetary,tum,kaist}`, each by the name of its folder, archive or
+/// bag, sorted.
+///
+/// Of a TUM sequence the bag with clouds is taken if there is one, else the raw bag, else the
+/// archive or folder with PNGs; a KAIST sequence is all that is named after it, its bags apart.
+/// @throws InvalidFile  if there is no log.
+std::vector<LogSequence> findLogs(const std::string& logs);
+
+/// The stages of a preparation, in their order.
+enum class PrepareStage { kConvert, kMap, kOverlap, kProblems, kCheck };
+
+const char* toString(PrepareStage stage);
+
+/// What `prepare_dataset` is asked for.
+struct PrepareOptions {
+  std::string logs;  ///< folder of the original logs
+  std::string root;  ///< of the common layout
+  /// Data sets, sequences, or `<data set>/<sequence>`; empty or `all` = all
+  std::vector<std::string> sequences;
+  PrepareStage last = PrepareStage::kCheck;
+  std::uint64_t seed = 1;
+  pcrb::BoundsSource bounds = pcrb::BoundsSource::kMeasured;
+  double kaist_max_rate = 0.0;    ///< Hz; 0 = all scans
+  std::size_t window = 150;       ///< pairs so many places apart, in sequences over twice as long
+  std::size_t overlap_pairs = 5;  ///< of each problem file, checked
+  int threads = 1;
+};
+
+/// Prepares data sets: converts the logs, builds the planetary map, computes overlaps, draws
+/// problems, checks. What is complete and unchanged is kept, so a run goes on where an earlier one
+/// was stopped or killed. Maps, matrices and problem files of somebody else's, e.g. the published
+/// ones, are kept and said to be.
+///
+/// @return  whether the check found no error.
+/// @throws pcrb::Error  when a stage fails; what is complete stays.
+bool prepareDataset(const PrepareOptions& options, std::ostream& out);
+
+}  // namespace pcrb_tools

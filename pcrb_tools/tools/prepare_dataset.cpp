@@ -1,0 +1,52 @@
+#include <iostream>
+#include <map>
+
+#include "pcrb_core/parallel.hpp"
+#include "pcrb_tools/preparation.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Prepares data sets from their original logs, in stages: convert, map, overlap, problems, "
+      "check. Run again after a stop, it goes on where it was.");
+  app.footer(
+      "LOGS has folders eth, planetary, tum and kaist (or some of them) with the logs as "
+      "fetch_datasets and make_sample_logs put them. Exit status 0 only if the check found no "
+      "error.\n"
+      "Example: prepare_dataset --logs ~/logs --root ~/benchmark eth/apartment kaist");
+  pcrb_tools::PrepareOptions options;
+  options.threads = pcrb::processorCount();
+  app.add_option("sequences", options.sequences,
+                 "data sets, sequences, or <data set>/<sequence> [all]");
+  app.add_option("--logs", options.logs, "folder of the original logs")->required();
+  app.add_option("--root", options.root, "root of the common layout")->required();
+  app.add_option("--until", options.last, "last stage: convert, map, overlap, problems, check")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, pcrb_tools::PrepareStage>{
+          {"convert", pcrb_tools::PrepareStage::kConvert},
+          {"map", pcrb_tools::PrepareStage::kMap},
+          {"overlap", pcrb_tools::PrepareStage::kOverlap},
+          {"problems", pcrb_tools::PrepareStage::kProblems},
+          {"check", pcrb_tools::PrepareStage::kCheck}}));
+  app.add_option("--seed", options.seed, "of the problems")->capture_default_str();
+  app.add_option("--bounds", options.bounds,
+                 "of perturbations: measured in the published problem files, or upstream's note")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, pcrb::BoundsSource>{
+          {"measured", pcrb::BoundsSource::kMeasured}, {"note", pcrb::BoundsSource::kNote}}));
+  app.add_option("--kaist-max-rate", options.kaist_max_rate, "Hz; 0 = all scans")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--window", options.window,
+                 "sequences of more than twice as many clouds: only pairs this many places apart")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--overlap-pairs", options.overlap_pairs,
+                 "pairs of each problem file whose overlap is recomputed by the check")
+      ->capture_default_str();
+  app.add_option("-j,--jobs,--threads", options.threads, "does not change a byte")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  return pcrb_tools::runTool(app, argc, argv, [&options] {
+    return pcrb_tools::prepareDataset(options, std::cout) ? pcrb_tools::kSuccess
+                                                          : pcrb_tools::kFailure;
+  });
+}
