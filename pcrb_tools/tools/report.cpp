@@ -33,6 +33,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   app.add_option("--seed", options.seed, "of the bootstrap")->capture_default_str();
+  app.add_flag("!--no-components", options.with_components,
+               "no errors along each axis, for which all clouds of a run are read");
   app.add_flag("!--no-figures", options.draw_figures, "no PNG and PDF figures, the page only");
   return pcrb_tools::runTool(app, argc, argv, [&] {
     if (!recall.empty()) options.recall_limits.clear();

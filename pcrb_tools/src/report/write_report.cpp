@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <map>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
@@ -7,6 +8,7 @@
 #include "report/comparison_tables.hpp"
 #include "report/detail_tables.hpp"
 #include "report/load_entries.hpp"
+#include "report/problem_details.hpp"
 #include "report/published.hpp"
 #include "report/score_tables.hpp"
 
@@ -149,13 +151,34 @@ class Writer {
   Json* tables_ = nullptr;
 };
 
+/// The data set folder of an entry: the one that was asked for, else the run's, where it is there.
+std::string rootOf(const Entry& entry, const ReportOptions& options) {
+  if (!options.root.empty()) return options.root;
+  const auto found = entry.info.find("root");
+  const bool is_there = found != entry.info.end() && fs::is_directory(found->second);
+  return is_there ? found->second : std::string();
+}
+
+void addDetails(const ReportOptions& options, std::vector<Entry>& entries) {
+  std::map<std::string, ProblemDetails> details;
+  for (Entry& entry : entries) {
+    const std::string root = rootOf(entry, options);
+    if (root.empty()) continue;
+    ProblemDetails& found = details.emplace(root, root).first->second;
+    found.addPairs(entry);
+    if (options.with_components && !entry.info.empty()) found.addComponents(entry);
+  }
+}
+
 }  // namespace
 
 void writeReportData(const ReportOptions& options) {
   std::vector<GroundTruth> accuracies;
   if (!options.ground_truth.empty()) accuracies = readGroundTruth(options.ground_truth);
-  const std::vector<Entry> entries = loadEntries(options);
-  const std::vector<Section> sections = makeSections(entries, options.root);
+  std::vector<Entry> entries = loadEntries(options);
+  addDetails(options, entries);
+  const std::string root = rootOf(entries.front(), options);
+  const std::vector<Section> sections = makeSections(entries, root);
   Writer writer(options);
   for (const Section& section : sections) writer.addSection(section, accuracies);
   writer.finish(summaryTable(sections));

@@ -22,6 +22,7 @@ struct ReportOptions {
       {0.1, 1.0}, {0.3, 3.0}, {0.5, 5.0}, {2.0, 5.0}};
   std::size_t resamples = 2000;  ///< of the bootstrap
   std::uint64_t seed = 1;        ///< of the bootstrap
+  bool with_components = true;   ///< errors along each axis, for which all clouds are read
   bool draw_figures = true;      ///< PNG and PDF, which take most of the time
 };
 

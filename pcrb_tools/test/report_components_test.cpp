@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "evaluation/some_results.hpp"
+#include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/problem/perturbation.hpp"
+#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/random.hpp"
+#include "report/problem_details.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+/// A data set far from the origin with one problem, and a reply that is off by a known motion.
+class ProblemDetailsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(folder_.file("own/yard"));
+    pcrb::Random random(3);
+    for (int i = 0; i < 200; ++i) {
+      cloud_.points.push_back(
+          shift_ + 20.0 * Eigen::Vector3d(random.uniform(), random.uniform(), random.uniform()));
+    }
+    pcrb::writePcd(folder_.file("own/yard/a.pcd"), cloud_);
+    pcrb::writePcd(folder_.file("own/yard/b.pcd"), cloud_);
+    const Eigen::Vector3d center = pcrb::centroid(cloud_);
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    const auto P = pcrb::makePerturbation(center, {0.5, -0.2, 0.1}, turn);
+    pcrb::Problem problem{"1234567890123", "a.pcd", "b.pcd", 0.75, {}};
+    problem.perturbation = P.matrix().topRows<3>();
+    pcrb::writeProblemFile(folder_.file("own/yard_local.txt"), {problem});
+    makeEntry(pcrb::inLocalFrame(P, pcrb::chooseLocalOrigin(cloud_)), center);
+  }
+
+  void makeEntry(const pcrb::Transform& P, const Eigen::Vector3d& center) {
+    const Eigen::Vector3d local = center - pcrb::chooseLocalOrigin(cloud_);
+    const Eigen::Matrix3d yaw =
+        Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    ScoredProblem problem;
+    problem.key = {"own", "yard", pcrb::Kind::kLocal, "1234567890123"};
+    problem.reply = pcrb::makePerturbation(local, {0.1, 0.0, -0.3}, yaw) * P.inverse();
+    problem.rotation_error = 0.02;
+    problem.translation_error = std::hypot(0.1, 0.3);
+    entry_.method = "mine";
+    entry_.info = {{"presentation", "registration"}};
+    entry_.problems = {problem};
+  }
+
+  const Eigen::Vector3d shift_{3e6, 4e6, 100.0};
+  pcrb_test::TemporaryFolder folder_;
+  pcrb::DatasetCloud cloud_;
+  Entry entry_;
+};
+
+TEST_F(ProblemDetailsTest, AreTheErrorsOfTheReplyAlongAndAboutEachAxis) {
+  ProblemDetails(folder_.path()).addComponents(entry_);
+  const auto components = entry_.problems[0].components.value();
+  const std::array<double, 6> expected{0.1, 0.0, -0.3, 0.0, 0.0, 0.02};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(components[i], expected[i], 1e-4) << i;
+  EXPECT_GT(entry_.problems[0].error_per_metre.value(), 1.0 / 20.0);
+}
+
+TEST_F(ProblemDetailsTest, AreUnknownOfAProblemWithoutAReply) {
+  entry_.problems[0].reply.reset();
+  ProblemDetails(folder_.path()).addComponents(entry_);
+  EXPECT_FALSE(entry_.problems[0].components);
+  EXPECT_TRUE(entry_.problems[0].error_per_metre);
+}
+
+TEST_F(ProblemDetailsTest, AreRefusedWhereTheDataAreNotThoseOfTheRun) {
+  entry_.problems[0].translation_error = 0.2;
+  PCRB_EXPECT_ERROR(pcrb::InvalidProblem, ProblemDetails(folder_.path()).addComponents(entry_),
+                    "the data sets have changed since the run");
+  entry_.problems[0].key.problem_id = "17";
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, ProblemDetails(folder_.path()).addComponents(entry_),
+                    "yard_local.txt: has no problem 17");
+  entry_.problems[0].key.sequence = "garden";
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, ProblemDetails(folder_.path()).addComponents(entry_),
+                    "has no problem file of own/garden");
+}
+
+TEST_F(ProblemDetailsTest, GiveImportedProblemsTheirCloudsAndOverlap) {
+  ProblemDetails(folder_.path()).addPairs(entry_);
+  EXPECT_EQ(entry_.problems[0].source, "a.pcd");
+  EXPECT_EQ(entry_.problems[0].overlap, 0.75);
+  EXPECT_EQ(entry_.problems[0].pair, "own/yard a.pcd b.pcd");
+}
+
+}  // namespace
+}  // namespace pcrb_tools
