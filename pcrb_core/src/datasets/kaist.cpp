@@ -141,7 +141,8 @@ DatasetCloud mergeScans(PlacedScan left, PlacedScan right) {
 std::string kaistSequenceName(std::string_view file_name) {
   constexpr std::string_view kPrefix = "urban";
   if (file_name.substr(0, kPrefix.size()) != kPrefix) return {};
-  const std::size_t end = file_name.find_first_not_of("0123456789", kPrefix.size());
+  const std::size_t end =
+      std::min(file_name.find_first_not_of("0123456789", kPrefix.size()), file_name.size());
   return end == kPrefix.size() ? std::string() : std::string(file_name.substr(0, end));
 }
 
