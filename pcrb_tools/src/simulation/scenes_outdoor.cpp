@@ -17,11 +17,12 @@ constexpr double kPi = 3.141592653589793;
 constexpr double kStreetBegin = -40.0;  // m
 constexpr double kStreetEnd = 140.0;    // m
 
-/// A ring wall around a bowl: height over the surroundings, m.
-double craterHeight(double distance, double radius) {
-  const double r = distance / radius;
-  const double bowl = r < 1.0 ? 0.22 * radius * (r * r - 1.0) : 0.0;
-  return bowl + 0.10 * radius * std::exp(-8.0 * (r - 1.0) * (r - 1.0));
+/// An old crater, its wall slumped and its outline uneven: height over the surroundings, m.
+double craterHeight(const Vector2d& offset, double radius, std::uint64_t lattice) {
+  const double outline = 1.0 + 0.25 * fractalNoise(offset.x(), offset.y(), lattice, 4.0, 2, 0.5);
+  const double r = offset.norm() / (radius * outline);
+  const double bowl = r < 1.0 ? -0.14 * radius * (1.0 - r * r) * (1.0 - r * r) : 0.0;
+  return bowl + 0.05 * radius * std::exp(-6.0 * (r - 1.0) * (r - 1.0));
 }
 
 Vector3d onGround(const SceneDescription& scene, double x, double y) {
@@ -55,6 +56,24 @@ void plantBushes(SceneDescription& scene, int count, double reach, pcrb::Random&
     const double y = woodPath(x) + side * random.uniform(1.3, reach);
     const double radius = random.uniform(0.3, 1.0);
     place(scene, makeBush(radius, static_cast<int>(70.0 * radius), random), onGround(scene, x, y));
+  }
+}
+
+/// Rocks of a square: two in three lie in heaps, many are small and few large.
+void scatterRocks(SceneDescription& scene, int count, double reach, pcrb::Random& random) {
+  constexpr int kHeap = 12;           // rocks around one spot
+  constexpr double kHeapReach = 3.0;  // m
+  const Vector3d corner(reach, reach, 0.0);
+  Vector3d heap = Vector3d::Zero();
+  for (int i = 0; i < count; ++i) {
+    if (i % kHeap == 0) heap = (1.0 - kHeapReach / reach) * drawBetween(-corner, corner, random);
+    const Vector3d alone = drawBetween(-corner, corner, random);
+    const Vector3d near = heap + kHeapReach * drawInBall(random);
+    const Vector3d& spot = i % 3 == 0 ? alone : near;
+    const double size = 0.16 * std::pow(1.0 - random.uniform(), -0.55);
+    const double yaw = random.uniform(0.0, 2.0 * kPi);
+    const Prop rock = makeRock(std::min(size, 1.8), random);
+    place(scene, rock, onGround(scene, spot.x(), spot.y()), yaw);
   }
 }
 
@@ -150,19 +169,13 @@ SceneDescription describeSandYard(std::uint64_t seed) {
   SceneDescription scene;
   scene.ground.emplace(kReach, 0.15, kSand, [lattice](double x, double y) {
     const double ripples = 0.02 * fractalNoise(x, 3.0 * y, lattice + 100, 1.1, 2, 0.7);
-    const double craters = craterHeight(std::hypot(x - 9.0, y - 5.0), 4.5) +
-                           craterHeight(std::hypot(x + 8.0, y - 9.0), 3.0) +
-                           craterHeight(std::hypot(x + 3.0, y + 10.0), 3.8);
+    const double craters = craterHeight({x - 9.0, y - 5.0}, 4.5, lattice + 200) +
+                           craterHeight({x + 8.0, y - 9.0}, 3.0, lattice + 201) +
+                           craterHeight({x + 3.0, y + 10.0}, 3.8, lattice + 202);
     return 1.3 * fractalNoise(x, y, lattice, 16.0, 4, 0.38) + craters + ripples;
   });
-  for (int i = 0; i < 320; ++i) {
-    const double size = 0.16 * std::pow(1.0 - random.uniform(), -0.55);  // many small, few large
-    const double reach = i < 220 ? 20.0 : kReach - 1.0;
-    const Vector3d spot = drawBetween({-reach, -reach, 0.0}, {reach, reach, 0.0}, random);
-    const double yaw = random.uniform(0.0, 2.0 * kPi);
-    const Prop rock = makeRock(std::min(size, 1.8), random);
-    place(scene, rock, onGround(scene, spot.x(), spot.y()), yaw);
-  }
+  scatterRocks(scene, 520, 20.0, random);
+  scatterRocks(scene, 180, kReach - 1.0, random);
   return scene;
 }
 
