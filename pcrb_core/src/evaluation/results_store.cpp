@@ -148,6 +148,30 @@ void ResultsStore::endSession(double ended) {
   impl_->session.reset();
 }
 
+std::vector<Session> ResultsStore::sessions() const {
+  Statement rows(impl_->database, "SELECT started, ended, host, pid FROM session ORDER BY rowid",
+                 "read the sessions");
+  std::vector<Session> sessions;
+  while (rows.step()) {
+    Session session{rows.real(0), std::nullopt, rows.text(2), static_cast<int>(rows.integer(3))};
+    if (!rows.isNull(1)) session.ended = rows.real(1);
+    sessions.push_back(session);
+  }
+  return sessions;
+}
+
+void ResultsStore::addAll(const std::vector<Result>& results) {
+  Transaction transaction(impl_->database, "add results");
+  for (const Result& result : results) add(result);
+  transaction.commit();
+}
+
+std::size_t ResultsStore::count() const {
+  Statement row(impl_->database, "SELECT count(*) FROM result", "count the results");
+  row.step();
+  return static_cast<std::size_t>(row.integer(0));
+}
+
 void ResultsStore::add(const Result& result) {
   if (!impl_->insert_result) throw StoreError(path() + ": cannot add a result: opened read only");
   requireStorable(result, path());

@@ -148,6 +148,20 @@ TEST_F(ResultsStoreTest, KeepsCovariancesThatAreNotFinite) {
   expectEqual(store.results().at(0), result);
 }
 
+TEST_F(ResultsStoreTest, AddsManyAtOnceOrNone) {
+  ResultsStore store = writer();
+  store.addAll({fullResult("1"), fullResult("2")});
+  EXPECT_EQ(store.count(), 2U);
+  expectError<StoreError>(
+      [&] {
+        store.addAll({fullResult("3"), fullResult("1")});
+      },
+      "found a result of eth/plain local 1");
+  EXPECT_EQ(store.count(), 2U);
+  store.add(fullResult("3"));
+  EXPECT_EQ(store.count(), 3U);
+}
+
 TEST_F(ResultsStoreTest, HasARunTableThatIsWrittenOnceAndUpdatedByKey) {
   const std::map<std::string, std::string> info{{"secret", "00"}, {"seed", "1"}};
   {
@@ -179,6 +193,13 @@ TEST_F(ResultsStoreTest, NotesSessionsAndLeavesTheEndOfAKilledOneUnknown) {
          "CREATE TEMP TABLE t (c CHECK (c = '10.0,?,host,7;20.0,30.0,host,8'));"
          "INSERT INTO t SELECT group_concat(started || ',' || coalesce(ended, '?') || ',' || host "
          "|| ',' || pid, ';') FROM session");
+  const std::vector<Session> sessions = reader().sessions();
+  ASSERT_EQ(sessions.size(), 2U);
+  EXPECT_EQ(sessions[0].ended, std::nullopt);
+  EXPECT_EQ(sessions[1].started, 20.0);
+  EXPECT_EQ(sessions[1].ended, 30.0);
+  EXPECT_EQ(sessions[1].host, "host");
+  EXPECT_EQ(sessions[1].pid, 8);
 }
 
 TEST_F(ResultsStoreTest, IsTheDatabaseOfTheDesign) {

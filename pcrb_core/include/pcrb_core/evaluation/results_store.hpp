@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,6 +16,14 @@ namespace pcrb {
 class StoreError : public Error {
  public:
   using Error::Error;
+};
+
+/// One start of the server.
+struct Session {
+  double started = 0.0;         ///< s since the epoch
+  std::optional<double> ended;  ///< s since the epoch; none after a kill
+  std::string host;
+  int pid = 0;
 };
 
 /// The results of one run: `<run>/results.sqlite` (WAL, synchronous FULL, `user_version` 1).
@@ -53,6 +62,9 @@ class ResultsStore {
   void beginSession(double started, const std::string& host, int pid);
   void endSession(double ended);
 
+  /// All sessions, in the order in which they began.
+  std::vector<Session> sessions() const;
+
   /// Commits one result. The covariance is stored as text: 36 numbers in their shortest exact form,
   /// separated by spaces; its entries need not be finite.
   ///
@@ -60,6 +72,12 @@ class ResultsStore {
   /// or
   ///                     out of its range, or the pose is incomplete; on any failure to write.
   void add(const Result& result);
+
+  /// Commits many results at once: all or, on any failure, none. As add() otherwise.
+  void addAll(const std::vector<Result>& results);
+
+  /// Number of stored results.
+  std::size_t count() const;
 
   /// Keys of all stored results.
   std::set<ProblemKey> finished() const;

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""A run in shards is the run without: merged, interrupted, killed, beside other masters, without a network."""
+import os
+import shutil
+import subprocess
+import sys
+
+import rospy
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pcrb_testing_data as maths
+from pcrb_testing import TIME_COLUMNS, Child, Launch, TestCase, executable, row_key, rows, run_info, wait_until
+
+# target_changed depends on the secret order; the others on the moment.
+OF_ONE_RUN = {'target_changed', *TIME_COLUMNS}
+OF_ONE_STORE = {'secret', 'created', 'merged_from'}
+ISOLATED = ['unshare', '--net', '--map-root-user', 'sh', '-c', 'ip link set lo up && exec "$@"', '-']
+
+
+def without(names, dictionary):
+    return {name: value for name, value in dictionary.items() if name not in names}
+
+
+def processes_that_name(text):
+    """Ids of the processes with a text in their command line, this one's excepted."""
+    found = []
+    for pid in filter(str.isdigit, os.listdir('/proc')):
+        try:
+            with open(f'/proc/{pid}/cmdline', 'rb') as file:
+                if text.encode() in file.read() and int(pid) != os.getpid():
+                    found.append(int(pid))
+        except OSError:
+            pass  # it has ended
+    return found
+
+
+class BatchTest(TestCase):
+
+    def setUp(self):
+        super().setUp()
+        self.data = maths.make_data_set(self.path('root'), points=400, perturbations=10)
+        self.run = self.path('run')
+
+    def batch(self, *options, prefix=(), **arguments):
+        arguments = {'root': self.data.root, 'method': 'icp', **arguments}
+        return self.start(Child([*prefix, executable('pcrb_tools', 'evaluate_batch'), '--run', self.run, *options,
+                                 *(f'{name}:={value}' for name, value in arguments.items())]))
+
+    def shard(self, number):
+        return os.path.join(self.run, 'shards', str(number))
+
+    def wait_for_rows_of_shard(self, number, count):
+        wait_until(lambda: len(rows(self.shard(number))) >= count, f'shard {number} has {count} results')
+
+    def assert_equal_runs(self, merged, whole):
+        def by_problem(run):
+            return {row_key(row): without(OF_ONE_RUN, row) for row in rows(run)}
+        self.assertEqual(by_problem(merged), by_problem(whole))
+        self.assertEqual(without(OF_ONE_STORE, run_info(merged)), without(OF_ONE_STORE, run_info(whole)))
+        for name in 'summary.txt', 'results.csv':
+            self.assertGreater(os.path.getsize(os.path.join(merged, name)), 100)
+
+    def test_merged_shards_equal_the_run_without_shards(self):
+        """Beside a master with parameters that would be mistakes."""
+        for node in 'benchmark_server', 'registration_node':
+            rospy.set_param(f'/pcrb/{node}/colour', 'red')
+        batch = self.batch('--jobs', '2', '--shards', '3', kind='both')
+        whole = self.path('whole')
+        launch = self.start(Launch('benchmark.launch', root=self.data.root, run=whole, method='icp', kind='both'))
+        self.assert_ends_well(batch)
+        launch.wait()
+        self.assert_rows_of(self.run, self.data.problems)
+        self.assert_equal_runs(self.run, whole)
+        self.assertRegex(batch.output(), r'66/66 problems \(100 %\)')
+        self.assertRegex(batch.output(), r'total +all +66')
+        self.assertEqual(processes_that_name(self.run), [])
+
+        merge = [executable('pcrb_tools', 'merge_runs'), *map(self.shard, (2, 0, 1)), '-o', self.path('merged')]
+        self.assert_ends_well(self.start(Child(merge)))
+        self.assert_equal_runs(self.path('merged'), whole)
+        shutil.rmtree(self.path('merged'))
+        self.assert_fails(self.start(Child([*merge[:3], *merge[4:]])), 'missing are 1/3')
+
+        again = self.batch(kind='both')  # everything is there
+        self.assert_ends_well(again)
+        self.assertRegex(again.output(), '66 kept')
+        self.assert_fails(self.batch(kind='both', method='gicp'), 'another batch: found `method:=icp`, asked for `meth')
+        self.assert_fails(self.batch('--shards', '2', kind='both'), 'found `shards 3`, asked for `shards 2`')
+
+    def test_an_interrupt_and_a_kill_end_all_and_the_next_one_goes_on(self):
+        self.data = maths.make_data_set(self.path('large'), points=3000, perturbations=30)
+        batch = self.batch('--jobs', '2', method='gicp')
+        self.wait_for_rows_of_shard(1, 1)
+        batch.interrupt()
+        self.assert_fails(batch, 'interrupted; what is complete is kept')
+        self.assertEqual(processes_that_name(self.run), [])
+        before = rows(self.shard(1))
+        self.assertLess(len(before), 90)
+
+        batch = self.batch('--jobs', '2', method='gicp')
+        self.wait_for_rows_of_shard(1, len(before) + 1)
+        batch.kill()
+        killed = rows(self.shard(1))
+        self.assertLess(len(killed), 90)
+        batch = self.batch(method='gicp')
+        self.assert_ends_well(batch)
+        self.assert_rows_of(self.run, self.data.of('local'))
+        self.assertEqual(rows(self.shard(1))[:len(killed)], killed)
+        wait_until(lambda: not processes_that_name(self.run), 'all processes have ended')
+
+    def test_a_node_that_never_answers_is_a_failure(self):
+        """A thousandth of a second is too short for this method."""
+        batch = self.batch('--jobs', '1', method='ransac', time_limit=0.001, subset=2, sequences='hall')
+        self.assert_fails(batch, 'shard 0/1: the node under test never answered')
+        self.assertEqual([row['outcome'] for row in rows(self.run)], ['timed_out'] * 2)
+
+    def test_a_shard_without_results_is_a_failure_that_says_why(self):
+        batch = self.batch('--jobs', '1', sequences='attic')
+        self.assert_fails(batch, r'shard 0/1: 0 problems have a result; benchmark_server: .*`attic`', 'not complete')
+        self.assertFalse(os.path.exists(os.path.join(self.run, 'summary.txt')))
+
+    def test_needs_no_network_but_loopback(self):
+        if subprocess.run([*ISOLATED, 'true'], stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest('cannot take the network away here')
+        self.assert_ends_well(self.batch('--jobs', '1', prefix=ISOLATED, subset=6))
+        self.assertEqual(len(rows(self.run)), 6)
+
+    def test_wrong_arguments_are_refused(self):
+        self.assert_fails(self.batch(run='elsewhere'), 'found `run:=elsewhere`')
+        self.assert_fails(self.batch(root='nowhere'), 'root: found `nowhere`, expected an existing folder')
+        self.assert_fails(self.batch('--shards', '2', '--only', '2'), 'found 2, expected a shard below 2')
+
+
+if __name__ == '__main__':
+    rospy.init_node('batch_test')
+    rostest.rosrun('pcrb_launch', 'batch', BatchTest)

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pcrb_tools {
+
+/// What `merge_runs` is asked for.
+struct MergeOptions {
+  std::vector<std::string> runs;  ///< folders of finished runs, the shards 0/N … (N − 1)/N of one
+  std::string output;             ///< folder of the merged run; what a merge left there is replaced
+};
+
+/// Puts the shards of a run together: a run folder like that of a run without shards, with results,
+/// sessions and exports. The shards are only read.
+///
+/// @return  the summary, as in summary.txt.
+/// @throws pcrb::Error  and writes nothing, if the shards are not all parts of one run (every
+///                      difference in their configuration is named: parameters, problem files,
+///                      clouds, client, version), one is missing or there twice, one has problems
+///                      without a result, two share a problem, or the output is a run that no merge
+///                      made.
+std::string runMergeTool(const MergeOptions& options);
+
+}  // namespace pcrb_tools

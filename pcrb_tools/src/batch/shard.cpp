@@ -1,0 +1,179 @@
+#include "batch/shard.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string hostName() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown host";
+}
+
+bool isAnswer(const pcrb::Result& result) {
+  return result.outcome != pcrb::Outcome::kTimedOut && result.outcome != pcrb::Outcome::kSkipped;
+}
+
+}  // namespace
+
+Shard::Shard(std::shared_ptr<const ShardSettings> settings, int number)
+    : settings_(std::move(settings)), number_(number) {}
+
+Shard::~Shard() {
+  process_.reset();
+  freeLock();
+}
+
+std::string Shard::folder() const { return settings_->run + "/shards/" + std::to_string(number_); }
+
+std::string Shard::name() const {
+  return "shard " + std::to_string(number_) + "/" + std::to_string(settings_->shards);
+}
+
+std::string Shard::logFile() const { return folder() + "/roslaunch.log"; }
+
+bool Shard::takeLock() {
+  const std::string path = folder() + "/batch.lock";
+  lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (lock_ < 0) throw pcrb::InvalidFile(path, std::strerror(errno));
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    freeLock();
+    return false;
+  }
+  const std::string holder = "process " + std::to_string(getpid()) + " on " + hostName() + "\n";
+  if (ftruncate(lock_, 0) != 0 || write(lock_, holder.data(), holder.size()) < 0) {
+    throw pcrb::InvalidFile(path, std::strerror(errno));
+  }
+  return true;
+}
+
+void Shard::freeLock() {
+  if (lock_ >= 0) close(lock_);
+  lock_ = -1;
+}
+
+std::string Shard::lockHolder() const {
+  std::ifstream file(folder() + "/batch.lock");
+  std::string holder;
+  std::getline(file, holder);
+  return holder;
+}
+
+bool Shard::tryStart() {
+  fs::create_directories(folder());
+  if (!takeLock()) return false;
+  port_ = std::make_unique<ReservedPort>();
+  ChildOptions options;
+  options.command = settings_->command;
+  options.command.push_back("run:=" + folder());
+  options.command.push_back("shard:=" + std::to_string(number_) + "/" +
+                            std::to_string(settings_->shards));
+  options.environment = {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(port_->number())},
+                         {"ROS_IP", "127.0.0.1"},
+                         {"ROS_HOSTNAME", std::nullopt},
+                         {"ROS_NAMESPACE", std::nullopt},
+                         {"ROS_LOG_DIR", folder() + "/log"}};
+  if (!settings_->scratch.empty()) {
+    const std::string scratch = settings_->scratch + "/shard_" + std::to_string(number_);
+    fs::create_directories(scratch);
+    for (const char* name : {"ROS_HOME", "TMPDIR"}) options.environment[name] = scratch;
+    options.environment["ROS_LOG_DIR"] = scratch + "/log";
+  }
+  options.log = logFile();
+  log_start_ =
+      fs::exists(options.log) ? static_cast<std::streamoff>(fs::file_size(options.log)) : 0;
+  options.inherited_descriptor = lock_;
+  process_ = std::make_unique<ChildProcess>(options);
+  return true;
+}
+
+bool Shard::isRunning() {
+  if (!process_) return false;
+  if (!process_->ended()) return true;
+  process_.reset();
+  port_.reset();
+  foldLog();
+  freeLock();
+  return false;
+}
+
+/// The server that ended could not fold its write-ahead log into the database while it was read
+/// here.
+void Shard::foldLog() {
+  store_.reset();
+  if (!fs::exists(folder() + "/results.sqlite")) return;
+  try {
+    const pcrb::ResultsStore store(folder(), pcrb::ResultsStore::Access::kReadWrite);
+  } catch (const pcrb::StoreError&) {
+    // Damaged, or a server that outlived its roslaunch is writing: both show when it is read.
+  }
+}
+
+void Shard::interrupt(int signal) {
+  if (process_) process_->signal(signal);
+}
+
+void Shard::open() {
+  if (store_ && total_ > 0) return;
+  try {
+    store_ = std::make_unique<pcrb::ResultsStore>(folder(), pcrb::ResultsStore::Access::kReadOnly);
+    const auto info = store_->runInfo();
+    const auto problems = info.find("problems");
+    if (problems != info.end()) total_ = pcrb::parseUnsigned(problems->second).value_or(0);
+  } catch (const pcrb::StoreError&) {
+    store_.reset();  // the server is about to make it, or to say in its log what is wrong with it
+  }
+}
+
+std::size_t Shard::done() {
+  open();
+  return store_ ? store_->count() : 0;
+}
+
+std::size_t Shard::total() {
+  open();
+  return total_;
+}
+
+bool Shard::isComplete() { return total() > 0 && done() >= total(); }
+
+std::string Shard::defect() {
+  if (!isComplete()) {
+    const std::string of = total_ == 0 ? "" : " of " + std::to_string(total_);
+    return name() + ": " + std::to_string(done()) + of + " problems have a result" +
+           lastComplaint();
+  }
+  const auto results = store_->results();
+  if (std::any_of(results.begin(), results.end(), isAnswer)) return "";
+  return name() + ": the node under test never answered; see " + logFile();
+}
+
+/// What a node said on standard error before it gave up, as the suite's nodes say it.
+std::string Shard::lastComplaint() const {
+  std::ifstream log(logFile());
+  log.seekg(log_start_);
+  std::string line;
+  std::string complaint;
+  while (std::getline(log, line)) {
+    const bool is_nodes = line.rfind("benchmark_server: ", 0) == 0 ||
+                          line.rfind("cannot start", 0) == 0 || line.rfind("RLException", 0) == 0;
+    if (is_nodes) complaint = line;
+  }
+  return complaint.empty() ? "; see " + logFile() : "; " + complaint + " (" + logFile() + ")";
+}
+
+}  // namespace pcrb_tools

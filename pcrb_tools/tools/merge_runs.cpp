@@ -1,0 +1,19 @@
+#include <iostream>
+
+#include "pcrb_tools/merge_tool.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app("Merges the shards of a run into one run, and prints its summary.");
+  app.footer(
+      "The shards must be parts 0/N ... (N-1)/N of one run, each once, all of one configuration,\n"
+      "and every problem must have its result. The shards are only read.\n"
+      "Example: merge_runs ~/pcrb/run/shards/* -o ~/pcrb/run");
+  pcrb_tools::MergeOptions options;
+  app.add_option("shards", options.runs, "folders of the shards' results")->required();
+  app.add_option("-o,--output", options.output, "folder of the merged run")->required();
+  return pcrb_tools::runTool(app, argc, argv, [&] {
+    std::cout << runMergeTool(options) << std::flush;
+    return pcrb_tools::kSuccess;
+  });
+}
