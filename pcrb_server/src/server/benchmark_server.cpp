@@ -1,9 +1,13 @@
 #include "server/benchmark_server.hpp"
 
+#include <ros/param.h>
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
 #include <iostream>
+#include <locale>
+#include <sstream>
 #include <thread>
 
 #include "pcrb_core/error.hpp"
@@ -32,6 +36,16 @@ std::string join(const std::set<std::string>& names) {
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : " ") + name;
   return text.empty() ? "nobody" : text;
+}
+
+/// Private parameters of a node as text, by name; empty where there are none.
+std::string parametersOf(const std::string& node) {
+  XmlRpc::XmlRpcValue value;
+  if (!ros::param::get(node, value)) return "";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  value.write(text);
+  return text.str();
 }
 
 }  // namespace
@@ -181,7 +195,7 @@ bool BenchmarkServer::waitForClient() {
     std::cout << "waiting for a client to call " << service << " (subscribed: " << listeners << ")"
               << std::endl;
   }
-  if (is_first) record_.noteClient(exchange_.client());
+  if (is_first) record_.noteClient(exchange_.client(), parametersOf(exchange_.client()));
   return true;
 }
 

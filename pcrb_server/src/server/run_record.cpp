@@ -93,10 +93,15 @@ void RunRecord::noteCloud(const std::string& name, const std::string& hash) {
   }
 }
 
-void RunRecord::noteClient(const std::string& name) {
-  if (info_["client"] == name) return;
-  info_["client"] = name;
-  store_.updateRunInfo("client", name);
+void RunRecord::noteClient(const std::string& name, const std::string& parameters) {
+  note("client", name);
+  if (!parameters.empty()) note("client_parameters", parameters);
+}
+
+void RunRecord::note(const std::string& key, const std::string& value) {
+  if (info_[key] == value) return;
+  info_[key] = value;
+  store_.updateRunInfo(key, value);
 }
 
 void RunRecord::writeExports(const std::string& summary_text) {

@@ -31,7 +31,9 @@ class RunRecord {
   /// @throws StoreError  if the run has used other content under that name.
   void noteCloud(const std::string& name, const std::string& hash);
 
-  void noteClient(const std::string& name);
+  /// Records who answers, and how it is set up: shards with other ones cannot be merged.
+  /// @param parameters  the client's private parameters as text; empty = none.
+  void noteClient(const std::string& name, const std::string& parameters);
 
   /// Commits a result: it is on the disk when this returns.
   void add(const Result& result) { store_.add(result); }
@@ -43,6 +45,7 @@ class RunRecord {
   void writeExports(const std::string& summary_text);
 
  private:
+  void note(const std::string& key, const std::string& value);
   void requireSame(const std::map<std::string, std::string>& found,
                    const std::map<std::string, std::string>& expected) const;
 
