@@ -14,7 +14,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd -P)
 links=$root/src/pcrb
-packages=(launch pcrb_core pcrb_msgs pcrb_server pcrb_tools)
+packages=(launch localization_standins pcrb_core pcrb_msgs pcrb_server pcrb_tools)
 
 needed_debian_packages=(
   catkin ccache cmake g++ make pkg-config
@@ -23,6 +23,7 @@ needed_debian_packages=(
   python3-geometry-msgs python3-jinja2 python3-matplotlib python3-numpy python3-rosbag python3-rosgraph-msgs
   python3-rosnode python3-rospy python3-rostest
   python3-sensor-msgs python3-std-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs
+  libtopic-tools-dev libxmlrpcpp-dev python3-tf2-ros
   libarchive-dev libbenchmark-dev libboost-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
   libnanoflann-dev libpcl-dev libpng-dev libsodium-dev libsqlite3-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev

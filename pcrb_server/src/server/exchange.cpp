@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame_name.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
@@ -19,10 +20,6 @@ std::chrono::steady_clock::duration steady(std::chrono::duration<double> duratio
 Eigen::Quaterniond orientationOf(const Request& request) {
   const auto& q = request.pose.pose.orientation;
   return {q.w, q.x, q.y, q.z};
-}
-
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
 Rejection duplicate() { return {Response::DUPLICATE, "the problem has been answered already"}; }

@@ -18,20 +18,6 @@ namespace pcrb {
 
 namespace {
 
-/// Nodes that people look with; they are not clients.
-bool isObserver(const std::string& node) {
-  const std::string name = node.substr(node.rfind('/') + 1);
-  for (const char* prefix : {"rviz", "rosbag", "rostopic", "rosout"}) {
-    if (name.rfind(prefix, 0) == 0) return true;
-  }
-  for (const std::string prefix : {"record_", "play_"}) {  // rosbag's, which end with a time
-    const bool is_bag = name.rfind(prefix, 0) == 0 && name.size() > prefix.size() &&
-                        name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
-    if (is_bag) return true;
-  }
-  return false;
-}
-
 template <typename Message>
 Message withHeader(const std::string& frame, const ros::Time& stamp) {
   Message message;
@@ -43,19 +29,10 @@ Message withHeader(const std::string& frame, const ros::Time& stamp) {
 
 Publications::Publications(ros::NodeHandle& node, const ServerParameters& parameters)
     : parameters_(parameters) {
-  const auto joined = [this](const ros::SingleSubscriberPublisher& subscriber) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    listeners_.insert(subscriber.getSubscriberName());
-  };
-  const auto left = [this](const ros::SingleSubscriberPublisher& subscriber) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = listeners_.find(subscriber.getSubscriberName());
-    if (found != listeners_.end()) listeners_.erase(found);
-  };
   target_ = node.advertise<sensor_msgs::PointCloud2>(topics::kTarget, 1, true);
   source_ = node.advertise<sensor_msgs::PointCloud2>(topics::kSource, 1, true);
-  problem_ =
-      node.advertise<pcrb_msgs::Problem>(topics::kProblem, 1, joined, left, ros::VoidPtr(), true);
+  problem_ = node.advertise<pcrb_msgs::Problem>(topics::kProblem, 1, listeners_.joined(),
+                                                listeners_.left(), ros::VoidPtr(), true);
   initial_pose_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>(topics::kInitialPose, 1);
   result_ = node.advertise<pcrb_msgs::Result>(topics::kResult, 100);
   summary_ = node.advertise<pcrb_msgs::Summary>(topics::kSummary, 1, true);
@@ -64,15 +41,6 @@ Publications::Publications(ros::NodeHandle& node, const ServerParameters& parame
   if (!parameters.debug) return;
   truth_ = node.advertise<geometry_msgs::PoseStamped>(topics::kDebugTruth, 10);
   perturbation_ = node.advertise<geometry_msgs::PoseStamped>(topics::kDebugPerturbation, 10);
-}
-
-std::set<std::string> Publications::listeners() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  std::set<std::string> names;
-  for (const auto& name : listeners_) {
-    if (!isObserver(name)) names.insert(name);
-  }
-  return names;
 }
 
 void Publications::announceTarget(const PreparedProblem& prepared,

@@ -5,7 +5,6 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <mutex>
 #include <set>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "server/problem_loader.hpp"
 #include "server/problem_message.hpp"
 #include "server/server_parameters.hpp"
+#include "subscriber_names.hpp"
 
 namespace pcrb {
 
@@ -39,7 +39,7 @@ class Publications {
   bool hasSummaryReaders() const { return summary_.getNumSubscribers() > 0; }
 
   /// Nodes that listen to `problem`; those that only watch (rviz, rosbag, rostopic) excepted.
-  std::set<std::string> listeners() const;
+  std::set<std::string> listeners() const { return listeners_.names(); }
 
  private:
   void announceTarget(const PreparedProblem& prepared, const Announcement& announcement);
@@ -53,8 +53,7 @@ class Publications {
   ros::Time target_stamp_;
   bool is_earth_known_ = false;  ///< whether earth → map was broadcast before
 
-  mutable std::mutex mutex_;
-  std::multiset<std::string> listeners_;
+  SubscriberNames listeners_;
 
   tf2_ros::TransformBroadcaster tf_;
   tf2_ros::StaticTransformBroadcaster static_tf_;

@@ -1,0 +1,1 @@
+"""Small localization algorithms; see the scripts for the nodes around them."""

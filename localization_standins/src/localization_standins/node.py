@@ -1,0 +1,93 @@
+"""What the nodes share: map, scans moved to base_link through tf, initial pose."""
+import numpy as np
+import rospy
+import tf2_ros
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from localization_standins.geometry import from_quaternion, moved, to_quaternion
+from sensor_msgs.msg import PointCloud2
+
+DTYPES = {7: np.float32, 8: np.float64}
+
+
+def points_of(cloud):
+    """x y z of a PointCloud2, n x 3."""
+    fields = {field.name: field for field in cloud.fields}
+    names = 'x', 'y', 'z'
+    layout = np.dtype({'names': names, 'formats': [DTYPES[fields[name].datatype] for name in names],
+                       'offsets': [fields[name].offset for name in names], 'itemsize': cloud.point_step})
+    data = np.frombuffer(cloud.data, layout, cloud.width * cloud.height)
+    return np.stack([data[name].astype(float) for name in names], axis=1)
+
+
+def matrix_of(position, orientation):
+    """4 x 4 of the parts of a Pose or a Transform."""
+    return from_quaternion([position.x, position.y, position.z],
+                           [orientation.x, orientation.y, orientation.z, orientation.w])
+
+
+def fill(position, orientation, T):
+    """Writes a 4 x 4 into the parts of a Pose or a Transform."""
+    position.x, position.y, position.z = (float(number) for number in T[:3, 3])
+    orientation.x, orientation.y, orientation.z, orientation.w = (float(number) for number in to_quaternion(T))
+
+
+class Node:
+    """Feeds an algorithm; publish(stamp, pose) is for those who derive from this.
+
+    Scans that come while one is worked on are dropped but for the newest, and so are scans before
+    there are a map and an initial pose, and those that tf cannot move to base_link.
+    """
+
+    def __init__(self, make_algorithm):
+        self.make_algorithm = make_algorithm
+        self.algorithm = None
+        self.initial = None
+        self.is_initialised = False
+        self.base_frame = rospy.get_param('~base_frame', 'base_link')
+        self.map_frame = rospy.get_param('~map_frame', 'map')
+        self.tf = tf2_ros.Buffer()
+        self.tf_listener = tf2_ros.TransformListener(self.tf)
+        rospy.Subscriber('map_cloud', PointCloud2, self.take_map, queue_size=1, buff_size=1 << 26)
+        rospy.Subscriber('initialpose', PoseWithCovarianceStamped, self.take_initial_pose, queue_size=1)
+        rospy.Subscriber('scan_cloud', PointCloud2, self.take_scan, queue_size=1, buff_size=1 << 26)
+
+    def take_map(self, cloud):
+        self.algorithm = self.make_algorithm(points_of(cloud))
+        self.is_initialised = False
+
+    def take_initial_pose(self, message):
+        self.initial = message
+        self.is_initialised = False
+
+    def is_ready(self):
+        if self.algorithm is None or self.initial is None:
+            return False
+        if not self.is_initialised:
+            pose, message = self.initial.pose, self.initial
+            self.is_initialised = True
+            self.algorithm.initialise(matrix_of(pose.pose.position, pose.pose.orientation),
+                                      np.reshape(pose.covariance, (6, 6)), message.header.stamp.to_sec())
+            self.start(message)
+        return True
+
+    def start(self, message):
+        """Called when there is a new initial pose."""
+
+    def take_scan(self, cloud):
+        if not self.is_ready():
+            return
+        try:
+            link = self.tf.lookup_transform(self.base_frame, cloud.header.frame_id, cloud.header.stamp,
+                                            rospy.Duration(0.5)).transform
+        except (tf2_ros.LookupException, tf2_ros.ConnectivityException, tf2_ros.ExtrapolationException) as error:
+            rospy.logwarn('scan dropped: %s', error)
+            return
+        self.work(moved(matrix_of(link.translation, link.rotation), points_of(cloud)), cloud.header.stamp)
+
+    def work(self, scan, stamp):
+        pose = self.algorithm.update(scan, stamp.to_sec())
+        if pose is not None:
+            self.publish(stamp, pose)
+
+    def publish(self, stamp, pose):
+        raise NotImplementedError

@@ -1,0 +1,111 @@
+#include "bridge/answer_source.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bridge/tf_watch.hpp"
+#include "frame_name.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_server/message_conversion.hpp"
+
+namespace pcrb {
+
+namespace {
+
+constexpr std::uint32_t kQueue = 100;
+
+PublishedPose withHeader(const std_msgs::Header& header) {
+  PublishedPose pose;
+  pose.stamp = header.stamp;
+  pose.parent = withoutSlash(header.frame_id);
+  return pose;
+}
+
+/// All zeros are what a node leaves that has no covariance.
+void addCovariance(const boost::array<double, 36>& numbers, PublishedPose& pose) {
+  const auto is_zero = [](double number) { return number == 0.0; };
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  if (std::all_of(numbers.begin(), numbers.end(), is_zero)) return;
+  if (!std::all_of(numbers.begin(), numbers.end(), is_finite)) return;
+  pose.covariance.emplace();
+  std::copy(numbers.begin(), numbers.end(), pose.covariance->begin());
+}
+
+PublishedPose read(const geometry_msgs::PoseStamped& message) {
+  PublishedPose pose = withHeader(message.header);
+  pose.T_parent_frame = fromMessage(message.pose);
+  return pose;
+}
+
+PublishedPose read(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  PublishedPose pose = withHeader(message.header);
+  pose.T_parent_frame = fromMessage(message.pose.pose);
+  addCovariance(message.pose.covariance, pose);
+  return pose;
+}
+
+PublishedPose read(const nav_msgs::Odometry& message) {
+  PublishedPose pose = withHeader(message.header);
+  pose.frame = withoutSlash(message.child_frame_id);
+  pose.T_parent_frame = fromMessage(message.pose.pose);
+  addCovariance(message.pose.covariance, pose);
+  return pose;
+}
+
+PublishedPose read(const geometry_msgs::TransformStamped& message) {
+  return publishedPose(message);
+}
+
+/// @return  nothing if the message is of another type.
+template <typename Message>
+std::optional<PublishedPose> readAs(const topic_tools::ShapeShifter& message) {
+  if (message.getDataType() != ros::message_traits::DataType<Message>::value()) return std::nullopt;
+  return read(*message.instantiate<Message>());
+}
+
+std::optional<PublishedPose> readAny(const topic_tools::ShapeShifter& message) {
+  if (auto pose = readAs<geometry_msgs::PoseStamped>(message)) return pose;
+  if (auto pose = readAs<geometry_msgs::PoseWithCovarianceStamped>(message)) return pose;
+  if (auto pose = readAs<nav_msgs::Odometry>(message)) return pose;
+  return readAs<geometry_msgs::TransformStamped>(message);
+}
+
+}  // namespace
+
+PublishedPose publishedPose(const geometry_msgs::TransformStamped& message) {
+  PublishedPose pose = withHeader(message.header);
+  pose.frame = withoutSlash(message.child_frame_id);
+  pose.T_parent_frame = fromMessage(message.transform);
+  return pose;
+}
+
+AnswerSource::AnswerSource(ros::NodeHandle& node, const std::string& topic, Listener listener)
+    : topic_(topic), listener_(std::move(listener)) {
+  using Message = topic_tools::ShapeShifter;
+  subscriber_ = node.subscribe<Message>(
+      topic, kQueue, [this](const Message::ConstPtr& message) { take(message); },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+}
+
+void AnswerSource::take(const topic_tools::ShapeShifter::ConstPtr& message) {
+  std::optional<PublishedPose> pose;
+  try {
+    pose = readAny(*message);
+  } catch (const InvalidProblem& error) {
+    mistake_ = topic_ + ": " + error.what();
+    return;
+  }
+  if (!pose) {
+    mistake_ = topic_ + ": found messages of type " + message->getDataType() +
+               ", expected PoseStamped, PoseWithCovarianceStamped, TransformStamped or Odometry";
+    return;
+  }
+  mistake_.clear();
+  listener_(*pose);
+}
+
+}  // namespace pcrb

@@ -1,0 +1,77 @@
+#include "bridge/node_keeper.hpp"
+
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace pcrb {
+
+namespace {
+
+constexpr double kAnswerLimit = 2.0;  // s for a node that did not answer a problem to show life
+
+}  // namespace
+
+NodeKeeper::NodeKeeper(ros::NodeHandle& node, const BridgeParameters& parameters,
+                       const NodeInputs& inputs)
+    : parameters_(parameters), inputs_(inputs), node_(node) {}
+
+void NodeKeeper::beginProblem(bool is_new_target) {
+  using Restart = BridgeParameters::Restart;
+  needs_restart_ |= parameters_.restart == Restart::kProblem ||
+                    (parameters_.restart == Restart::kTarget && is_new_target);
+}
+
+bool NodeKeeper::restart() {
+  needs_restart_ = false;
+  left_before_ = inputs_.nodes().empty() ? 0 : inputs_.departures() + 1;
+  std_srvs::Trigger service;
+  auto client = node_.serviceClient<std_srvs::Trigger>(parameters_.restart_service);
+  const bool is_answered = client.call(service);
+  if (is_answered && service.response.success != 0) return true;
+  std::cout << "the node under test cannot be restarted: "
+            << (is_answered
+                    ? service.response.message
+                    : "nobody answers on " + client.getService() + " (only under node_supervisor)")
+            << std::endl;
+  left_before_ = 0;
+  return false;
+}
+
+bool NodeKeeper::isThere() const {
+  return !inputs_.nodes().empty() && inputs_.departures() >= left_before_;
+}
+
+void NodeKeeper::beginPlay() {
+  left_at_start_ = inputs_.departures();
+  processes_.usage(inputs_.allNodes());
+}
+
+bool NodeKeeper::hasLeft() const { return inputs_.departures() != left_at_start_; }
+
+bool NodeKeeper::isHanging() const {
+  const auto nodes = inputs_.nodes();
+  return std::any_of(nodes.begin(), nodes.end(), [](const std::string& node) {
+    return !NodeProcesses::isAlive(node, kAnswerLimit);
+  });
+}
+
+void NodeKeeper::endProblem(bool is_answered) {
+  unanswered_ = is_answered ? 0 : unanswered_ + 1;
+  if (is_answered || hasLeft()) return;
+  const bool is_silent = parameters_.restart_after > 0 && unanswered_ >= parameters_.restart_after;
+  const bool is_hanging = isHanging();
+  if (!is_silent && !is_hanging) return;
+  std::cout << "the node under test "
+            << (is_hanging ? "hangs"
+                           : "has not answered " + std::to_string(unanswered_) +
+                                 (unanswered_ == 1 ? " problem" : " problems"))
+            << ": it is restarted" << std::endl;
+  needs_restart_ = true;
+  unanswered_ = 0;
+}
+
+std::optional<ProcessUsage> NodeKeeper::usage() { return processes_.usage(inputs_.allNodes()); }
+
+}  // namespace pcrb
