@@ -119,7 +119,7 @@ def gaussian(x, mean, deviation):
 def histogram(method, color, name):
     counts, width = method['counts'], method['max'] / len(method['counts'])
     total = sum(counts) + method['above']
-    chart = Chart(Linear(0, method['max']), Linear(0, 1.08 * max(counts + [1])), 'error', 'problems', 200,
+    chart = Chart(Linear(0, method['max']), Linear(0, 1.08 * max(counts + [1]), True), 'error', 'problems', 200,
                   f'histogram of the error, {method["method"]}, {name}')
     for i, count in enumerate(counts):
         if count:
@@ -139,7 +139,7 @@ def histogram(method, color, name):
 
 def overlaps(panel):
     count = len(panel['counts'])
-    chart = Chart(Linear(0, 1), Linear(0, 1.08 * max(panel['counts'] + [1])), 'overlap', 'pairs', 170,
+    chart = Chart(Linear(0, 1), Linear(0, 1.08 * max(panel['counts'] + [1]), True), 'overlap', 'pairs', 170,
                   f'overlaps of the pairs, {panel["selection"]}')
     for i, pairs in enumerate(panel['counts']):
         if pairs:

@@ -28,8 +28,9 @@ def coordinate(value):
 
 
 class Linear:
-    def __init__(self, low, high):
+    def __init__(self, low, high, whole=False):
         self.low, self.high = low, high if high > low else low + 1
+        self.whole = whole  # ticks at whole numbers only
 
     def __call__(self, value):
         return (min(max(value, self.low), self.high) - self.low) / (self.high - self.low)
@@ -37,7 +38,9 @@ class Linear:
     def ticks(self, count=5):
         rough = (self.high - self.low) / count
         power = 10 ** math.floor(math.log10(rough))
-        step = next(m * power for m in (1, 2, 2.5, 5, 10) if m * power >= rough * 0.999)
+        step = next(m * power for m in ((1, 2, 5, 10) if self.whole else (1, 2, 2.5, 5, 10)) if m * power >= rough * 0.999)
+        if self.whole:
+            step = max(step, 1)
         first = math.ceil(self.low / step - 1e-9)
         last = math.floor(self.high / step + 1e-9)
         return [round(i * step, 12) for i in range(first, last + 1)]

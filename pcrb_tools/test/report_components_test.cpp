@@ -86,6 +86,12 @@ TEST_F(ProblemDetailsTest, AreRefusedWhereTheDataAreNotThoseOfTheRun) {
                     "has no problem file of own/garden");
 }
 
+TEST_F(ProblemDetailsTest, HaveTheOverlapOfEveryPairInAProblemFileOnce) {
+  ProblemDetails details(folder_.path());
+  EXPECT_EQ(details.overlapsOf("own", "yard", pcrb::Kind::kLocal), std::vector<double>{0.75});
+  EXPECT_TRUE(details.overlapsOf("own", "yard", pcrb::Kind::kGlobal).empty());
+}
+
 TEST_F(ProblemDetailsTest, GiveImportedProblemsTheirCloudsAndOverlap) {
   ProblemDetails(folder_.path()).addPairs(entry_);
   EXPECT_EQ(entry_.problems[0].source, "a.pcd");

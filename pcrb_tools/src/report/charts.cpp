@@ -106,8 +106,11 @@ Json histograms(const Section& section) {
   return panels;
 }
 
-/// Overlaps of a selection's pairs of clouds, each pair once, whichever methods had it.
+/// Overlaps of a sequence's pairs of clouds: those of its problem file where it is known, else each
+/// pair that a method had, once.
 std::vector<double> overlapsOf(const Section& section, const Selection& selection) {
+  const auto known = section.overlaps.find(*selection.sequences.begin());
+  if (known != section.overlaps.end()) return known->second;
   std::set<std::string> seen;
   std::vector<double> overlaps;
   for (const Entry* entry : section.entries) {

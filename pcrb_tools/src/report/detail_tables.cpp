@@ -141,16 +141,16 @@ Table problemTable(const Section& section) {
               "Every problem of every method.",
               {{"method"},
                {"sequence"},
-               {"problem"},
-               {"source"},
-               {"target"},
-               {"overlap", Format::kFraction},
-               {"outcome"},
                {"error", Format::kError},
+               {"outcome"},
                {"misalignment", Format::kError},
                {"translation m", Format::kError},
                {"rotation deg", Format::kError},
+               {"overlap", Format::kFraction},
                {"latency", Format::kSeconds},
+               {"problem"},
+               {"source"},
+               {"target"},
                {"reason"}},
               {}};
   std::vector<std::pair<const Entry*, const ScoredProblem*>> order;
@@ -162,12 +162,12 @@ Table problemTable(const Section& section) {
   for (const auto& [entry, problem] : order) {
     std::optional<double> degrees = problem->rotation_error;
     if (degrees) *degrees /= kDegree;
-    table.rows.push_back({entry->method, sequenceName(section, problem->key),
-                          problem->key.problem_id, problem->source, problem->target,
-                          optionalNumber(problem->overlap), pcrb::toString(problem->outcome),
-                          problem->error, optionalNumber(problem->initial_misalignment),
-                          optionalNumber(problem->translation_error), optionalNumber(degrees),
-                          optionalNumber(problem->runtime), problem->reason});
+    table.rows.push_back(
+        {entry->method, sequenceName(section, problem->key), problem->error,
+         pcrb::toString(problem->outcome), optionalNumber(problem->initial_misalignment),
+         optionalNumber(problem->translation_error), optionalNumber(degrees),
+         optionalNumber(problem->overlap), optionalNumber(problem->runtime),
+         problem->key.problem_id, problem->source, problem->target, problem->reason});
   }
   return table;
 }

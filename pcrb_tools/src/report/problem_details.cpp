@@ -79,6 +79,18 @@ const pcrb::Problem& ProblemDetails::problemOf(const pcrb::ProblemKey& key) {
   return found->second;
 }
 
+std::vector<double> ProblemDetails::overlapsOf(const std::string& data_set,
+                                               const std::string& sequence, pcrb::Kind kind) {
+  if (sequences_.count({{data_set, sequence}, kind}) == 0) return {};
+  std::map<std::pair<std::string, std::string>, double> pairs;
+  for (const auto& [id, problem] : sequenceOf({data_set, sequence, kind, ""}).problems) {
+    pairs.emplace(std::pair(problem.source, problem.target), problem.overlap);
+  }
+  std::vector<double> overlaps;
+  for (const auto& [pair, overlap] : pairs) overlaps.push_back(overlap);
+  return overlaps;
+}
+
 void ProblemDetails::addPairs(Entry& entry) {
   for (ScoredProblem& problem : entry.problems) {
     if (!problem.source.empty()) continue;

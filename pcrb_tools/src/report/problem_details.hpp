@@ -19,6 +19,11 @@ class ProblemDetails {
   /// @param root  folder in the common layout.
   explicit ProblemDetails(std::string root);
 
+  /// Overlaps of all pairs of clouds in the problem file of a sequence, each once; empty if there
+  /// is no such file.
+  std::vector<double> overlapsOf(const std::string& data_set, const std::string& sequence,
+                                 pcrb::Kind kind);
+
   /// Adds source, target, overlap and pair to problems that have none, from the problem files.
   /// @throws pcrb::Error  if a problem file is missing or does not have a problem.
   void addPairs(Entry& entry);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -22,6 +23,8 @@ struct Section {
   pcrb::Kind kind = pcrb::Kind::kLocal;
   std::vector<const Entry*> entries;
   std::vector<Selection> selections;  ///< sequences, data sets, groups, total
+  /// Of all pairs of clouds in the problem file of a sequence (data set, sequence), where known.
+  std::map<std::pair<std::string, std::string>, std::vector<double>> overlaps;
 
   /// Selections of some levels.
   std::vector<const Selection*> at(const std::set<std::string>& levels) const;

@@ -159,14 +159,26 @@ std::string rootOf(const Entry& entry, const ReportOptions& options) {
   return is_there ? found->second : std::string();
 }
 
-void addDetails(const ReportOptions& options, std::vector<Entry>& entries) {
-  std::map<std::string, ProblemDetails> details;
+/// Data sets by their root folder.
+using DetailsByRoot = std::map<std::string, ProblemDetails>;
+
+DetailsByRoot addDetails(const ReportOptions& options, std::vector<Entry>& entries) {
+  DetailsByRoot details;
   for (Entry& entry : entries) {
     const std::string root = rootOf(entry, options);
     if (root.empty()) continue;
     ProblemDetails& found = details.emplace(root, root).first->second;
     found.addPairs(entry);
     if (options.with_components && !entry.info.empty()) found.addComponents(entry);
+  }
+  return details;
+}
+
+void addOverlaps(ProblemDetails& details, Section& section) {
+  for (const Selection* selection : section.at({"sequence"})) {
+    const auto& [data_set, sequence] = *selection->sequences.begin();
+    auto overlaps = details.overlapsOf(data_set, sequence, section.kind);
+    if (!overlaps.empty()) section.overlaps[{data_set, sequence}] = std::move(overlaps);
   }
 }
 
@@ -176,9 +188,12 @@ void writeReportData(const ReportOptions& options) {
   std::vector<GroundTruth> accuracies;
   if (!options.ground_truth.empty()) accuracies = readGroundTruth(options.ground_truth);
   std::vector<Entry> entries = loadEntries(options);
-  addDetails(options, entries);
-  const std::string root = rootOf(entries.front(), options);
-  const std::vector<Section> sections = makeSections(entries, root);
+  DetailsByRoot details = addDetails(options, entries);
+  const std::string root = details.empty() ? std::string() : details.begin()->first;
+  std::vector<Section> sections = makeSections(entries, root);
+  for (Section& section : sections) {
+    if (details.size() == 1) addOverlaps(details.begin()->second, section);
+  }
   Writer writer(options);
   for (const Section& section : sections) writer.addSection(section, accuracies);
   writer.finish(summaryTable(sections));
