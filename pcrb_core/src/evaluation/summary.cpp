@@ -7,12 +7,13 @@
 #include <tuple>
 
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text_table.hpp"
 
 namespace pcrb {
 namespace {
 
 using Group = std::tuple<std::string, std::string, Kind>;  // data set, sequence, kind
-using Row = std::vector<std::string>;
+using Row = TableRow;
 
 /// What is gathered about one group of problems before its statistics are computed.
 struct Tally {
@@ -43,33 +44,6 @@ Row tableRow(const SequenceSummary& summary) {
     row.push_back(formatError(value));
   }
   return row;
-}
-
-/// Number of characters of a UTF-8 text.
-std::size_t displayWidth(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned>(c) & 0xC0u) != 0x80u;
-  }));
-}
-
-std::string alignColumns(const std::vector<Row>& rows) {
-  constexpr std::size_t kTextColumns = 2;  // aligned left; numbers right
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      widths[i] = std::max(widths[i], displayWidth(row[i]));
-    }
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - displayWidth(row[i]), ' ');
-      if (i > 0) text += "  ";
-      text += i < kTextColumns ? row[i] + padding : padding + row[i];
-    }
-    text += '\n';
-  }
-  return text;
 }
 
 }  // namespace
@@ -105,7 +79,8 @@ std::string formatSummary(const std::vector<SequenceSummary>& summaries) {
   for (const char* name : {"median", "q75", "q95", "mean", "stddev"}) header.emplace_back(name);
   std::vector<Row> rows{header};
   for (const SequenceSummary& summary : summaries) rows.push_back(tableRow(summary));
-  return alignColumns(rows);
+  constexpr std::size_t kTextColumns = 2;
+  return alignColumns(rows, kTextColumns);
 }
 
 }  // namespace pcrb

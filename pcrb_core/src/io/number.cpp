@@ -155,7 +155,8 @@ const char* scanDouble(const char* begin, const char* end, double& value) noexce
 std::optional<double> parseDouble(std::string_view text) noexcept {
   double value = 0.0;
   const char* const end = text.data() + text.size();
-  if (scanDouble(text.data(), end, value) != end) return std::nullopt;
+  // An empty text may have no data: its end is the null pointer that stands for no number.
+  if (text.empty() || scanDouble(text.data(), end, value) != end) return std::nullopt;
   return value;
 }
 

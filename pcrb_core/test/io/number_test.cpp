@@ -33,6 +33,7 @@ TEST(Number, ReadsEveryDecimalNotation) {
 }
 
 TEST(Number, RejectsWhatIsNoNumberOrMoreThanANumber) {
+  EXPECT_FALSE(parseDouble(std::string_view{})) << "empty, without data";
   for (const char* text : {"", "-", "+", ".", "abc", "1.5f", "1,5", "0x10", "1 ", " 1", "+-1",
                            "--1", "1e", "++1", "1.2.3"}) {
     EXPECT_FALSE(parseDouble(text)) << text;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/problem/problem.hpp"
+
+namespace pcrb_tools {
+
+/// What `evaluate_ground_truth` is asked for.
+struct GroundTruthOptions {
+  std::string root;                      ///< folder of data sets; empty = imports only
+  std::vector<std::string> sequences;    ///< `<data set>` or `<data set>/<sequence>`; empty = all
+  pcrb::Kind kind = pcrb::Kind::kLocal;  ///< of the problem files whose pairs are evaluated
+  std::vector<std::string> imports;      ///< `<data set>=<path>/<sequence>.csv`
+  std::string output;                    ///< folder, made where missing
+  std::optional<double> radius;          ///< m, of the association; empty = the overlap distance
+  std::size_t max_pairs = 0;             ///< per sequence, evenly over the file; 0 = all
+  int threads = 1;
+  bool force = false;  ///< replace files that somebody else made
+};
+
+/// Evaluates the ground truth of sequences as the paper's section 4 does: PPCR starts at the
+/// ground-truth pose of each pair of clouds, without subsampling; the mean distance (m) by which it
+/// moves the source's points is the pair's misalignment. Outliers are left out of a sequence's mean
+/// and standard deviation; a data set is as good as its worst sequence.
+///
+/// Writes `<output>/pairs/<data set>_<sequence>.csv` (a row per pair; an interrupted run goes on
+/// from its last pair, what is complete and unchanged is kept), then `ground_truth.csv`,
+/// `ground_truth.txt` (which also goes to `out`) and `ground_truth.svg` from them.
+/// @throws pcrb::Error  if a file is not as it should be, a wanted sequence is not there, or a
+///                      sequence has no pair that could be aligned.
+void runGroundTruthTool(const GroundTruthOptions& options, std::ostream& out);
+
+}  // namespace pcrb_tools

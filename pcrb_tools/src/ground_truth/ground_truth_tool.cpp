@@ -1,0 +1,174 @@
+#include "pcrb_tools/ground_truth_tool.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+#include "ground_truth/pair_evaluator.hpp"
+#include "ground_truth/sequence_accuracy.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/number.hpp"
+#include "pcrb_core/problem/dataset.hpp"
+#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_tools/interruption.hpp"
+#include "pcrb_tools/progress.hpp"
+#include "pcrb_tools/provenance.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+namespace fs = std::filesystem;
+using pcrb::SequenceFiles;
+
+bool isNamed(const SequenceFiles& files, const std::string& name) {
+  return name == files.data_set || name == files.data_set + "/" + files.sequence;
+}
+
+std::vector<SequenceFiles> findWanted(const GroundTruthOptions& options) {
+  std::vector<SequenceFiles> wanted;
+  if (options.root.empty()) return wanted;
+  const std::vector<SequenceFiles> all = pcrb::findSequences(options.root);
+  const auto& names = options.sequences;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(wanted), [&](const SequenceFiles& files) {
+    return files.kind == options.kind &&
+           (names.empty() || std::any_of(names.begin(), names.end(),
+                                         [&](const auto& name) { return isNamed(files, name); }));
+  });
+  const std::string expected = std::string("a problem file <sequence>_") + toString(options.kind);
+  for (const std::string& name : names) {
+    if (std::none_of(wanted.begin(), wanted.end(),
+                     [&](const SequenceFiles& files) { return isNamed(files, name); })) {
+      throw pcrb::InvalidFile(options.root, 0, "no '" + name + "'", expected + ".txt of it");
+    }
+  }
+  if (wanted.empty()) throw pcrb::InvalidFile(options.root, 0, "none", expected + ".txt");
+  return wanted;
+}
+
+/// The different pairs of a problem file, at most so many, evenly over the file, those of a target
+/// together.
+std::vector<PairNames> choosePairs(const std::string& problem_file, std::size_t max_pairs) {
+  std::vector<PairNames> all;
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const pcrb::Problem& problem : pcrb::readProblemFile(problem_file)) {
+    if (seen.emplace(problem.source, problem.target).second) {
+      all.push_back({problem.source, problem.target});
+    }
+  }
+  const std::size_t count = max_pairs == 0 ? all.size() : std::min(max_pairs, all.size());
+  std::vector<PairNames> chosen;
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(all[i * all.size() / count]);
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [](const PairNames& a, const PairNames& b) { return a.target < b.target; });
+  return chosen;
+}
+
+/// One sequence's pairs and the file of their misalignments.
+class SequenceEvaluation {
+ public:
+  SequenceEvaluation(const SequenceFiles& files, const GroundTruthOptions& options)
+      : files_(files),
+        options_(options),
+        radius_(options.radius ? *options.radius
+                               : pcrb::loadDataset(options.root, files.data_set).overlap_distance),
+        pairs_(choosePairs(files.problem_file, options.max_pairs)),
+        output_(options.output + "/pairs/" + files.data_set + "_" + files.sequence + ".csv"),
+        provenance_("evaluate_ground_truth") {
+    provenance_.setParameter("radius", pcrb::formatShortest(radius_));
+    provenance_.setParameter("kind", toString(files.kind));
+    provenance_.setParameter("pairs", std::to_string(options.max_pairs));
+    provenance_.addInput(files.problem_file);
+    std::set<std::string> clouds;
+    for (const PairNames& pair : pairs_) clouds.insert({pair.source, pair.target});
+    for (const std::string& name : clouds) provenance_.addInput(files.cloud_folder + "/" + name);
+  }
+
+  PairFile run() const {
+    if (provenance_.isUpToDate(output_)) {
+      std::cerr << output_ << ": complete and unchanged, kept" << std::endl;
+      return readPairFile(output_);
+    }
+    if (!options_.force) Provenance::requireReplaceable(output_);
+    const PairFile file = evaluate();
+    save(output_, file);
+    fs::remove(partial());
+    fs::remove(sideFile(partial()));
+    return file;
+  }
+
+ private:
+  std::string partial() const { return output_ + ".partial"; }
+
+  void save(const std::string& path, const PairFile& file) const {
+    pcrb::writeFileAtomically(path, file.text);
+    provenance_.record(path);
+  }
+
+  PairFile evaluate() const {
+    PairFile file = provenance_.isUpToDate(partial()) ? readPairFile(partial()) : emptyPairFile();
+    Progress progress(files_.sequence, "pairs", pairs_.size());
+    progress.keep(file.pairs());
+    PairEvaluator evaluator(files_.cloud_folder, radius_, options_.threads);
+    while (file.pairs() < pairs_.size()) {
+      Interruption::check();
+      evaluator.evaluate(pairs_[file.pairs()], file);
+      save(partial(), file);
+      progress.add();
+    }
+    progress.finish();
+    return file;
+  }
+
+  const SequenceFiles& files_;
+  const GroundTruthOptions& options_;
+  double radius_;  // m
+  std::vector<PairNames> pairs_;
+  std::string output_;
+  Provenance provenance_;
+};
+
+SequenceAccuracy assess(const std::string& data_set, const std::string& sequence, PairFile pairs) {
+  if (pairs.misalignments.empty()) {
+    throw pcrb::InvalidProblem(data_set + "/" + sequence + ": found no pair that could be aligned");
+  }
+  SequenceAccuracy result{data_set, sequence, std::move(pairs), {}, false};
+  result.accuracy = pcrb::assessGroundTruth(result.pairs.misalignments);
+  return result;
+}
+
+SequenceAccuracy importFile(const std::string& import) {
+  const std::size_t equals = import.find('=');
+  if (equals == 0 || equals == std::string::npos) {
+    throw pcrb::InvalidParameter("import: found '" + import +
+                                 "', expected <data set>=<path>/<sequence>.csv");
+  }
+  const std::string path = import.substr(equals + 1);
+  return assess(import.substr(0, equals), fs::path(path).stem().string(), readPairFile(path));
+}
+
+}  // namespace
+
+void runGroundTruthTool(const GroundTruthOptions& options, std::ostream& out) {
+  if (options.root.empty() && options.imports.empty()) {
+    throw pcrb::InvalidParameter("found neither a root nor an import, expected one of them");
+  }
+  std::vector<SequenceAccuracy> sequences;
+  for (const std::string& import : options.imports) sequences.push_back(importFile(import));
+  const Interruption interruption;
+  const std::vector<SequenceFiles> wanted = findWanted(options);
+  fs::create_directories(options.output + "/pairs");
+  for (const SequenceFiles& files : wanted) {
+    sequences.push_back(
+        assess(files.data_set, files.sequence, SequenceEvaluation(files, options).run()));
+  }
+  markWorst(sequences);
+  const std::string text = formatText(sequences);
+  pcrb::writeFileAtomically(options.output + "/ground_truth.csv", formatCsv(sequences));
+  pcrb::writeFileAtomically(options.output + "/ground_truth.txt", text);
+  pcrb::writeFileAtomically(options.output + "/ground_truth.svg", plotSvg(sequences));
+  out << text << std::flush;
+}
+
+}  // namespace pcrb_tools

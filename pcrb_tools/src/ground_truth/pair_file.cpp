@@ -1,0 +1,97 @@
+#include "ground_truth/pair_file.hpp"
+
+#include <cmath>
+#include <string_view>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text_rows.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+constexpr std::string_view kPublishedHeader = "misalignment_m,tx,ty,tz,qx,qy,qz,qw";
+constexpr std::string_view kOwnColumns = ",source,target,reason";
+constexpr std::size_t kNumbers = 8;  // columns
+
+/// A field of a CSV row, quoted (RFC 4180).
+std::string quotedField(const std::string& text) {
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + "\"";
+}
+
+void addNames(PairFile& file, const PairNames& pair, const std::string& remark) {
+  file.text += "," + quotedField(pair.source) + "," + quotedField(pair.target) + "," +
+               quotedField(remark) + "\n";
+}
+
+void readRow(const pcrb::LineReader& lines, const std::vector<std::string_view>& fields,
+             PairFile& file) {
+  if (fields.size() < kNumbers) {
+    lines.fail(std::to_string(fields.size()) + " fields", "at least 8");
+  }
+  bool is_empty = true;
+  for (std::size_t i = 0; i < kNumbers; ++i) is_empty &= fields[i].empty();
+  if (is_empty) {
+    ++file.failed;
+    return;
+  }
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const auto value = pcrb::parseDouble(fields[i]);
+    if (!value || !std::isfinite(*value)) lines.fail(pcrb::inQuotes(fields[i]), "a finite number");
+    if (i > 0) continue;
+    if (*value < 0.0) lines.fail(pcrb::inQuotes(fields[i]), "a length in m");
+    file.misalignments.push_back(*value);
+  }
+}
+
+}  // namespace
+
+PairFile emptyPairFile() {
+  PairFile file;
+  file.text = std::string(kPublishedHeader) + std::string(kOwnColumns) + "\n";
+  return file;
+}
+
+void addAligned(PairFile& file, const PairNames& pair, double misalignment,
+                const pcrb::Transform& moved, const std::string& remark) {
+  const Eigen::Quaterniond q(moved.linear());
+  const Eigen::Vector3d& t = moved.translation();
+  pcrb::appendShortest(file.text, misalignment);
+  for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
+    file.text += ",";
+    pcrb::appendShortest(file.text, value);
+  }
+  addNames(file, pair, remark);
+  file.misalignments.push_back(misalignment);
+}
+
+void addFailed(PairFile& file, const PairNames& pair, const std::string& reason) {
+  file.text += std::string(kNumbers - 1, ',');
+  addNames(file, pair, reason);
+  ++file.failed;
+}
+
+PairFile readPairFile(const std::string& path) {
+  const pcrb::FileBytes bytes(path);
+  PairFile file;
+  file.text = std::string(bytes.text());
+  pcrb::LineReader lines(bytes.text(), path);
+  std::string_view line;
+  const bool has_header = lines.next(line);
+  const std::string own = std::string(kPublishedHeader) + std::string(kOwnColumns);
+  if (!has_header || (line != kPublishedHeader && line != own)) {
+    throw pcrb::InvalidFile(path, 1, has_header ? pcrb::inQuotes(line) : "nothing",
+                            "the header " + std::string(kPublishedHeader));
+  }
+  std::vector<std::string_view> fields;
+  while (lines.next(line)) {
+    pcrb::splitAt(',', line, fields);
+    readRow(lines, fields, file);
+  }
+  return file;
+}
+
+}  // namespace pcrb_tools

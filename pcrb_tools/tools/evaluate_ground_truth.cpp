@@ -1,0 +1,37 @@
+#include <iostream>
+
+#include "pcrb_core/parallel.hpp"
+#include "pcrb_tools/ground_truth_tool.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Evaluates the ground truth of data sets: registers each pair of a problem file from its "
+      "ground-truth pose and measures how far that moves the source.");
+  app.footer(
+      "Writes pairs/*.csv, ground_truth.csv, .txt and .svg. The accuracy of a sequence is the "
+      "floor below which methods cannot be told apart on it: give the CSV to report "
+      "--ground-truth.\n"
+      "Example: evaluate_ground_truth ~/pcrb --output ground_truth --sequences eth/apartment");
+  pcrb_tools::GroundTruthOptions options;
+  options.threads = pcrb::processorCount();
+  std::string kind = "local";
+  app.add_option("root", options.root, "folder of data sets in the common layout");
+  app.add_option("-o,--output", options.output, "folder to write to")->required();
+  app.add_option("--sequences", options.sequences, "data sets or data_set/sequence [all]");
+  app.add_option("--kind", kind, "problem files whose pairs are taken [local]")
+      ->check(CLI::IsMember({"local", "global"}));
+  app.add_option("--radius", options.radius,
+                 "m, points farther apart are no pair [the data set's overlap distance]")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--pairs", options.max_pairs, "per sequence, evenly over the file [0 = all]");
+  app.add_option("--import", options.imports,
+                 "files of misalignments instead, <data set>=<path>/<sequence>.csv");
+  app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_flag("--force", options.force, "replace files that this tool did not make");
+  return pcrb_tools::runTool(app, argc, argv, [&] {
+    options.kind = pcrb::kindFromString(kind);
+    runGroundTruthTool(options, std::cout);
+    return pcrb_tools::kSuccess;
+  });
+}
