@@ -92,6 +92,7 @@ class SequenceEvaluation {
     }
     if (!options_.force) Provenance::requireReplaceable(output_);
     const PairFile file = evaluate();
+    provenance_.begin(output_);
     save(output_, file);
     fs::remove(partial());
     fs::remove(sideFile(partial()));
