@@ -7,7 +7,7 @@ namespace pcrb {
 
 namespace {
 
-constexpr double kLettersPerScene = 20.0;  // a letter's height fits so often into what is in view
+constexpr double kLettersPerScene = 16.0;  // a letter's height fits so often into what is in view
 constexpr double kMinLetter = 0.1;         // m
 constexpr double kMaxLetter = 5.0;         // m
 

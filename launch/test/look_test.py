@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""What the rviz configurations show, on a screen without a monitor: for each role there is a picture with
+its colour in it, and one, its topic being off, without.
+
+PCRB_PICTURES=FOLDER keeps the pictures, for people to look at.
+"""
+import os
+import sys
+
+import roslib.packages
+import rospy
+import rostest
+import yaml
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pcrb_testing_data as maths
+from pcrb_testing import Child, TestCase, executable
+from pcrb_testing_screen import Screen, count, require_screen, wait_for_colors
+
+WHITE = (255, 255, 255)  # of texts
+
+
+def color(text):
+    return tuple(int(part) for part in text.split(';'))
+
+
+def rviz_configuration(name):
+    return os.path.join(roslib.packages.get_pkg_dir('pcrb_launch'), 'rviz', f'{name}.rviz')
+
+
+def roles(name):
+    """Background, and the colour of each topic that a configuration shows; axes have none of their own."""
+    with open(rviz_configuration(name)) as file:
+        manager = yaml.safe_load(file)['Visualization Manager']
+    topics = {}
+    for display in manager['Displays']:
+        topic = display.get('Topic') or display.get('Marker Topic')
+        if topic and display['Class'] != 'rviz/Pose':
+            topics[topic] = color(display['Color']) if 'Color' in display else WHITE
+    return color(manager['Global Options']['Background Color']), topics
+
+
+class LookTest(TestCase):
+
+    def setUp(self):
+        require_screen()
+        super().setUp()
+        self.data = maths.make_data_set(self.path('root'))
+        os.mkdir(self.path('screen'))
+        self.screen = self.start(Screen(self.path('screen')))
+
+    def replay(self, name='replay', **parameters):
+        """Shows its last scene for as long as the test lasts."""
+        rospy.set_param(f'/pcrb/{name}', {'rate': 1000, 'keep_alive': True, **parameters})
+        self.addCleanup(rospy.delete_param, f'/pcrb/{name}')
+        self.start(Child([executable('pcrb_server', 'replay'), f'__name:={name}'], '/pcrb')).wait_for_output('at the end')
+
+    def look(self, configuration, background, shown, hidden):
+        """Starts rviz with some topics off; the part of the picture that it draws, once the others are seen."""
+        off = [f'{topic}:=/nowhere{topic}' for topic in hidden]
+        rviz = self.start(Child(['rviz', '-s', '', '-d', rviz_configuration(configuration), *off],
+                                HOME=self.folder, **self.screen.environment()))
+        picture = wait_for_colors(self.screen, background, list(shown.values()))
+        if os.environ.get('PCRB_PICTURES'):
+            names = '_'.join(topic.rpartition('/')[2] for topic in shown)
+            self.screen.save(os.path.join(os.environ['PCRB_PICTURES'], f'{configuration}_{names}.ppm'))
+        rviz.kill()
+        return picture
+
+    def assert_shows_every_role(self, configuration):
+        background, topics = roles(configuration)
+        self.assertGreaterEqual(len(topics), 3)
+        halves = {}, {}
+        for i, (topic, role_color) in enumerate(topics.items()):
+            halves[i % 2][topic] = role_color
+        for shown, hidden in halves, halves[::-1]:
+            picture = self.look(configuration, background, shown, hidden)
+            for topic, role_color in hidden.items():
+                self.assertEqual(count(picture, role_color), 0, f'{topic} is off')
+
+    def run_of_guesses(self):
+        server = self.server(self.data, sequences='hall')
+        self.client(server).serve(server)
+        self.assert_ends_well(server)
+
+    def test_a_sequence(self):
+        self.replay(root=self.data.root, sequence='hall', map_leaf=0.3)
+        self.assert_shows_every_role('sequence')
+
+    def test_a_run(self):
+        self.run_of_guesses()
+        self.replay(run=self.path('run'))
+        self.assert_shows_every_role('benchmark')
+
+    def test_problems_and_what_became_of_them(self):
+        self.run_of_guesses()
+        self.replay('replay_run', run=self.path('run'))
+        self.replay(root=self.data.root, sequence='hall', problems='local')
+        self.assert_shows_every_role('problems')
+
+
+if __name__ == '__main__':
+    rospy.init_node('look_test')
+    rostest.rosrun('pcrb_launch', 'look', LookTest)
