@@ -104,6 +104,11 @@ def shifted(T, origin):
     return transform(T[:3, :3], T[:3, 3] + (T[:3, :3] - np.eye(3)) @ origin)
 
 
+def shifted_pose(T, origin):
+    """A pose in a frame whose origin lies at `origin`."""
+    return transform(T[:3, :3], T[:3, 3] - origin)
+
+
 def local_origin(target_points):
     """What the server takes for a target: the centre of its box, on a grid of 100 m."""
     center = (target_points.min(axis=0) + target_points.max(axis=0)) / 2

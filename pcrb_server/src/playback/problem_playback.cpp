@@ -17,6 +17,8 @@ ServerParameters toParameters(const ProblemsOptions& options) {
   parameters.kinds = options.kinds;
   parameters.presentation = options.presentation;
   parameters.upright = options.upright;
+  parameters.subset = options.subset;
+  parameters.seed = options.seed;
   parameters.time_limit = options.time_limit;
   parameters.map_frame = options.map_frame;
   parameters.scan_frame = options.scan_frame;

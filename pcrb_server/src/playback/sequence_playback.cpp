@@ -81,7 +81,11 @@ class SequencePlayback : public Playback {
     scene.name = names_[position_];
     scene.title = pathOf(options_).filename().string() + " " + scene.name;
     std::optional<Transform> sensor;  // T_map_sensor, where it is known
-    if (read_cloud.hasViewpoint()) sensor = inMap(read_cloud.viewpoint);
+    if (read_cloud.hasViewpoint()) {
+      sensor = inMap(read_cloud.viewpoint);
+    } else {
+      scene.title += " (no VIEWPOINT: where the sensor was is not known)";
+    }
     if (options_.truth) {
       showTruth(scene, stamp, read_cloud, sensor);
     } else {

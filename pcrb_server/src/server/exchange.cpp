@@ -17,17 +17,7 @@ std::chrono::steady_clock::duration steady(std::chrono::duration<double> duratio
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
 }
 
-Eigen::Quaterniond orientationOf(const Request& request) {
-  const auto& q = request.pose.pose.orientation;
-  return {q.w, q.x, q.y, q.z};
-}
-
 Rejection duplicate() { return {Response::DUPLICATE, "the problem has been answered already"}; }
-
-Outcome outcomeOf(std::uint8_t status) {
-  if (status == Request::POSE) return Outcome::kReplied;
-  return status == Request::FAILED ? Outcome::kFailed : Outcome::kTimedOut;
-}
 
 }  // namespace
 
@@ -180,28 +170,8 @@ void Exchange::submit(const Request& request, Response& response) {
 
 void Exchange::accept(const Request& request, Clock::time_point arrival,
                       const std::optional<Transform>& T_target_frame) {
-  Reply reply;
-  reply.outcome = outcomeOf(request.status);
-  reply.reason = request.reason;
+  Reply reply = makeReply(request, T_target_frame);
   reply.runtime = std::chrono::duration<double>(arrival - handed_out_).count();
-  if (!std::isnan(request.solver_time)) reply.solver_time = request.solver_time;
-  if (request.scans_used > 0) reply.scans_used = request.scans_used;
-  if (reply.outcome == Outcome::kReplied) {
-    const auto& p = request.pose.pose.position;
-    reply.position = {p.x, p.y, p.z};
-    reply.orientation = orientationOf(request).normalized();
-    if (T_target_frame) {
-      reply.position = *T_target_frame * reply.position;
-      reply.orientation =
-          (Eigen::Quaterniond(T_target_frame->linear()) * reply.orientation).normalized();
-    }
-    if (request.has_covariance != 0) {
-      reply.covariance.emplace();
-      std::copy(request.covariance.begin(), request.covariance.end(), reply.covariance->begin());
-    }
-  } else if (reply.reason.empty()) {
-    reply.reason = "the client gave no reason";
-  }
   reply_ = reply;
   changed_.notify_all();
 }

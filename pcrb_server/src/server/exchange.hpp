@@ -4,7 +4,6 @@
 #include <pcrb_msgs/SubmitPose.h>
 #include <ros/time.h>
 
-#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -13,24 +12,11 @@
 #include <optional>
 #include <string>
 
-#include "pcrb_core/evaluation/result.hpp"
 #include "pcrb_core/transform.hpp"
+#include "server/reply.hpp"
 #include "server/reply_checks.hpp"
 
 namespace pcrb {
-
-/// How a problem ended, as far as its client is concerned.
-struct Reply {
-  Outcome outcome = Outcome::kTimedOut;
-  std::string reason;
-  std::optional<double> runtime;                                    ///< s
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< where kReplied
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< unit, where kReplied
-  std::optional<std::array<double, 36>> covariance;
-  std::optional<double> solver_time;  ///< s
-  std::optional<std::uint32_t> scans_used;
-  std::uint32_t rejected = 0;  ///< rejected replies to this problem before it ended
-};
 
 /// The problem in flight, between the server's loop and the threads of its services.
 ///

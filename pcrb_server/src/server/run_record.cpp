@@ -34,13 +34,14 @@ std::map<std::string, std::string> identity(const ServerParameters& parameters,
 
 }  // namespace
 
-RunRecord::RunRecord(const ServerParameters& parameters, const RunPlan& plan)
+RunRecord::RunRecord(const ServerParameters& parameters, const RunPlan& plan,
+                     const std::optional<Secret>& secret)
     : folder_(parameters.run),
       store_(parameters.run, ResultsStore::Access::kReadWrite),
       info_(store_.runInfo()) {
   const auto expected = identity(parameters, plan);
   if (info_.empty()) {
-    secret_ = Secret::draw();
+    secret_ = secret ? *secret : Secret::draw();
     info_ = expected;
     info_["secret"] = secret_.toHex();
     info_["code_version"] = PCRB_VERSION;
@@ -51,6 +52,9 @@ RunRecord::RunRecord(const ServerParameters& parameters, const RunPlan& plan)
   } else {
     requireSame(info_, expected);
     secret_ = Secret::fromHex(info_["secret"]);
+    if (secret && secret->toHex() != secret_.toHex()) {
+      throw StoreError(store_.path() + ": holds results with another key: give another folder");
+    }
   }
   store_.beginSession(now(), hostName(), getpid());
 }
@@ -102,6 +106,15 @@ void RunRecord::note(const std::string& key, const std::string& value) {
   if (info_[key] == value) return;
   info_[key] = value;
   store_.updateRunInfo(key, value);
+}
+
+void RunRecord::requireClient(const std::string& name) {
+  const auto before = info_.find("client");
+  if (before != info_.end() && before->second != name) {
+    throw StoreError(store_.path() + ": holds results of `" + before->second + "`, asked for `" +
+                     name + "`: give another folder");
+  }
+  noteClient(name, "");
 }
 
 void RunRecord::writeExports(const std::string& summary_text) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,7 +20,10 @@ class RunRecord {
   /// @throws StoreError  if the folder holds a run of another configuration (naming every
   /// difference),
   ///                     of other problem files, or cannot be used.
-  RunRecord(const ServerParameters& parameters, const RunPlan& plan);
+  /// @param secret  that a new run gets and an old one must have; nothing = a new run draws its
+  /// own.
+  RunRecord(const ServerParameters& parameters, const RunPlan& plan,
+            const std::optional<Secret>& secret = std::nullopt);
   ~RunRecord();
   RunRecord(const RunRecord&) = delete;
   RunRecord& operator=(const RunRecord&) = delete;
@@ -34,6 +38,10 @@ class RunRecord {
   /// Records who answers, and how it is set up: shards with other ones cannot be merged.
   /// @param parameters  the client's private parameters as text; empty = none.
   void noteClient(const std::string& name, const std::string& parameters);
+
+  /// noteClient(), for one that must be the same for all results of the run.
+  /// @throws StoreError  if the run has results of another one.
+  void requireClient(const std::string& name);
 
   /// Commits a result: it is on the disk when this returns.
   void add(const Result& result) { store_.add(result); }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pcrb_core/evaluation/result.hpp"
-#include "server/exchange.hpp"
 #include "server/problem_poser.hpp"
+#include "server/reply.hpp"
 
 namespace pcrb {
 

@@ -51,6 +51,8 @@ struct ProblemsOptions {
   bool truth = true;   ///< false: the same that a client of the server sees, in a secret order
   std::string secret;  ///< 32 hexadecimal digits; needed without truth and for localization
   bool upright = false;
+  int subset = 0;            ///< number of problems drawn, 0 = all
+  int seed = 1;              ///< of that draw
   double time_limit = 10.0;  ///< s, as the problems state it
   std::string map_frame = "map";
   std::string scan_frame = "pcrb_scan";

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <ostream>
+#include <string>
+
+#include "pcrb_core/transform.hpp"
+
+namespace pcrb_tools {
+
+/// Where the poses to score are.
+struct PoseSource {
+  std::string path;               ///< a bag (`.bag`), or a text of poses
+  std::string topic;              ///< of a bag
+  std::string map_frame = "map";  ///< in which the poses of a bag must be
+};
+
+/// What `score_poses PROBLEM_FILE` is asked for.
+struct ProblemScoringOptions {
+  PoseSource poses;
+  std::string problem_file;      ///< `<root>/<data set>/<sequence>_<kind>.txt`
+  std::string run;               ///< folder of the results
+  std::string key;               ///< of a bag of problems; empty = official ids, registration
+  bool in_dataset_frame = true;  ///< without key: whether poses are in the clouds' frame
+  int subset = 0;                ///< without key
+  int seed = 1;
+};
+
+/// Scores the poses of problems into a run like the server's, and prints its summary.
+///
+/// @throws pcrb::Error  for files that are not as they should be, a pose of no problem, or two
+///                      poses of one problem in a text; of a bag the last one counts.
+void runProblemScoring(const ProblemScoringOptions& options, std::ostream& out);
+
+/// What `score_poses --sequence` is asked for.
+struct TrackingOptions {
+  PoseSource poses;
+  std::string folder;  ///< `<root>/<data set>/<sequence>`
+  std::string scans;   ///< list of sequence_to_bag or replay; empty = stamps are in the clouds'
+                       ///< names and poses in the clouds' frame
+  std::string output;  ///< folder of the results
+  double max_difference = 0.01;                                 ///< s between a scan and its pose
+  std::size_t delta = 1;                                        ///< scans, of relative errors
+  bool align = false;                                           ///< APE after a rigid alignment
+  pcrb::Transform T_body_sensor = pcrb::Transform::Identity();  ///< poses are those of the body
+};
+
+/// Scores a trajectory scan by scan: the benchmark's error, APE and RPE. Writes scans.csv,
+/// summary.txt, truth.tum and estimate.tum, and prints the summary.
+///
+/// @throws pcrb::Error  for files that are not as they should be, or if no scan has a pose.
+void runTrackingScoring(const TrackingOptions& options, std::ostream& out);
+
+}  // namespace pcrb_tools

@@ -1,0 +1,116 @@
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "bags/problem_key.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_hash.hpp"
+#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_server/offline_run.hpp"
+#include "pcrb_tools/problem_file_path.hpp"
+#include "pcrb_tools/progress.hpp"
+#include "pcrb_tools/scoring_tool.hpp"
+#include "scoring/recorded_poses.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+using Replies = std::map<std::string, pcrb::OfflineReply>;
+
+/// The official id that a pose's label or stamp means.
+class ProblemNames {
+ public:
+  ProblemNames(const std::string& problem_file, const std::optional<ProblemKey>& key) {
+    for (const pcrb::Problem& problem : pcrb::readProblemFile(problem_file)) {
+      ids_.insert(problem.id);
+    }
+    if (!key) return;
+    for (const auto& [stamp, row] : key->rows) {
+      by_stamp_[stamp] = row.official_id;
+      by_public_id_[row.public_id] = row.official_id;
+    }
+  }
+
+  std::string find(const RecordedPose& pose) const {
+    if (ids_.count(pose.label) > 0) return pose.label;
+    const auto by_id = by_public_id_.find(pose.label);
+    if (by_id != by_public_id_.end()) return by_id->second;
+    const auto stamp = pose.label.empty() ? pose.stamp : pcrb::parseStamp(pose.label);
+    const auto by_stamp = stamp ? by_stamp_.find(*stamp) : by_stamp_.end();
+    if (by_stamp != by_stamp_.end()) return by_stamp->second;
+    const std::string what = pose.label.empty() ? pcrb::formatStamp(pose.stamp) : pose.label;
+    throw pcrb::InvalidFile(pose.place, 0, "`" + what + "`",
+                            by_stamp_.empty() ? "the id of a problem (timestamps need --key)"
+                                              : "the id or timestamp of a problem");
+  }
+
+ private:
+  std::set<std::string> ids_;
+  std::map<std::string, std::string> by_public_id_;
+  std::map<pcrb::Stamp, std::string> by_stamp_;
+};
+
+/// @param is_bag  an estimator's answers to one scan may follow each other: the last one counts.
+Replies assign(std::vector<RecordedPose> poses, const ProblemNames& names, bool is_bag) {
+  Replies replies;
+  for (RecordedPose& pose : poses) {
+    const std::string id = names.find(pose);
+    const bool is_new = replies.insert_or_assign(id, std::move(pose.reply)).second;
+    if (is_new || is_bag) continue;
+    throw pcrb::InvalidFile(pose.place, 0, "another pose of problem " + id, "one");
+  }
+  return replies;
+}
+
+ProblemKey readKeyOf(const ProblemFilePath& path, const std::string& key_path) {
+  namespace fs = std::filesystem;
+  const ProblemKey key = readProblemKey(key_path);
+  const std::string name = fs::path(path.files.problem_file).filename().string();
+  if (key.problem_file != name || key.hash != pcrb::fileHash(path.files.problem_file)) {
+    throw pcrb::InvalidFile(key_path, 0, "the key of another " + key.problem_file,
+                            "one of " + path.files.problem_file);
+  }
+  return key;
+}
+
+pcrb::OfflineRunOptions makeRunOptions(const ProblemScoringOptions& options,
+                                       const ProblemFilePath& path,
+                                       const std::optional<ProblemKey>& key) {
+  pcrb::OfflineRunOptions run;
+  run.root = path.root;
+  run.sequence = path.files.data_set + "/" + path.files.sequence;
+  run.kind = path.files.kind;
+  run.run = options.run;
+  run.client = "score_poses " + std::filesystem::path(options.poses.path).filename().string() +
+               " " + pcrb::fileHash(options.poses.path);
+  run.subset = options.subset;
+  run.seed = options.seed;
+  run.in_dataset_frame = !key && options.in_dataset_frame;
+  if (!key) return run;
+  run.presentation = key->presentation;
+  run.upright = key->upright;
+  run.secret = key->secret;
+  run.subset = key->subset;
+  run.seed = key->seed;
+  return run;
+}
+
+}  // namespace
+
+void runProblemScoring(const ProblemScoringOptions& options, std::ostream& out) {
+  const ProblemFilePath path = splitProblemFilePath(options.problem_file);
+  std::optional<ProblemKey> key;
+  if (!options.key.empty()) key = readKeyOf(path, options.key);
+  const bool is_bag = !options.poses.topic.empty();
+  const Replies replies =
+      assign(readPoses(options.poses.path, options.poses.topic, options.poses.map_frame),
+             ProblemNames(path.files.problem_file, key), is_bag);
+  pcrb::OfflineRun run(makeRunOptions(options, path, key));
+  Progress progress(path.files.sequence, "problems", run.size());
+  const std::string summary = run.score(replies, [&progress] { progress.add(); });
+  progress.finish();
+  out << summary << std::flush;
+}
+
+}  // namespace pcrb_tools

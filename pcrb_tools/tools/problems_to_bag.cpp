@@ -1,0 +1,48 @@
+#include "pcrb_tools/bag_tools.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Writes registration problems as a bag that `rosbag play --clock` replays: for rviz, or "
+      "without truth for whoever is to solve them.");
+  app.footer(
+      "Example: problems_to_bag ~/pcrb/eth/apartment_local.txt -o apartment.bag --subset 50\n"
+      "Given away: problems_to_bag ~/pcrb/eth/apartment_local.txt -o problems.bag --no-truth \\\n"
+      "  --key problems.key, and later score_poses … --key problems.key");
+  pcrb_tools::ProblemsBagOptions options;
+  options.bag.period = 2.0;
+  bool no_truth = false;
+  std::string presentation = "registration";
+  app.add_option("problem_file", options.problem_file,
+                 "<root>/<data set>/<sequence>_local.txt or _global.txt")
+      ->required();
+  app.add_option("-o,--output", options.bag.output, "the bag")->required();
+  app.add_option("--period", options.bag.period, "s from a problem to the next")
+      ->check(CLI::Range(1e-3, 1e4))
+      ->capture_default_str();
+  app.add_option("--presentation", presentation, "registration or localization")
+      ->check(CLI::IsMember({"registration", "localization"}))
+      ->capture_default_str();
+  app.add_flag("--upright", options.problems.upright,
+               "localization without VIEWPOINT: turn scans about z only; gives the tilt away");
+  app.add_option("--subset", options.problems.subset, "number of problems to draw, 0 = all")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--seed", options.problems.seed, "of the subset")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_flag("--no-truth", no_truth,
+               "what a client of the server would see, in a secret order, with random ids");
+  app.add_option("--key", options.key, "file for the key with which score_poses scores");
+  app.add_option("--scan-frame", options.problems.scan_frame, "of the source, in localization")
+      ->capture_default_str();
+  app.add_option("--map-frame", options.problems.map_frame)->capture_default_str();
+  app.add_flag("--compress", options.bag.compress, "LZ4");
+  app.add_flag("--force", options.bag.force, "replace an output that this tool did not make");
+  return pcrb_tools::runTool(app, argc, argv, [&] {
+    options.problems.truth = !no_truth;
+    options.problems.presentation = pcrb::presentationFromString(presentation);
+    runProblemsBagTool(options);
+    return pcrb_tools::kSuccess;
+  });
+}

@@ -1,0 +1,100 @@
+#include <iostream>
+#include <vector>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_tools/scoring_tool.hpp"
+#include "pcrb_tools/tool_main.hpp"
+
+namespace {
+
+/// What is scored is either a problem file or a sequence.
+struct Options {
+  pcrb_tools::ProblemScoringOptions problems;
+  pcrb_tools::TrackingOptions tracking;
+  std::string frame = "data_set";
+  std::vector<double> sensor_in_body;
+};
+
+void addOptions(CLI::App& app, Options& options) {
+  auto& problems = options.problems;
+  auto& tracking = options.tracking;
+  auto* file = app.add_option("problem_file", problems.problem_file,
+                              "<root>/<data set>/<sequence>_local.txt or _global.txt");
+  auto* sequence = app.add_option("--sequence", tracking.folder,
+                                  "<root>/<data set>/<sequence>: score a trajectory instead");
+  sequence->excludes(file);
+  app.add_option("--poses", problems.poses.path,
+                 "a bag, or a text of rows `id` and the first three rows of a 4 x 4 matrix, or "
+                 "`timestamp tx ty tz qx qy qz qw`")
+      ->required();
+  app.add_option("--topic", problems.poses.topic, "of a bag");
+  app.add_option("--map-frame", problems.poses.map_frame, "of the poses in a bag")
+      ->capture_default_str();
+  auto* run = app.add_option("--run", problems.run, "folder of the results of problems");
+  run->needs(file);
+  app.add_option("--key", problems.key, "of a bag of problems")->needs(file);
+  app.add_option("--frame", options.frame,
+                 "of poses without a key: data_set (that of the clouds' files) or map (that in "
+                 "which the server hands clouds out; the same unless coordinates are large)")
+      ->check(CLI::IsMember({"data_set", "map"}))
+      ->needs(file)
+      ->capture_default_str();
+  app.add_option("--subset", problems.subset, "without a key: that of the run")->needs(file);
+  app.add_option("--seed", problems.seed, "without a key: of the subset")->needs(file);
+  app.add_option("--output", tracking.output, "folder of the results of a sequence")
+      ->needs(sequence);
+  app.add_option("--scans", tracking.scans,
+                 "list that sequence_to_bag or replay wrote [timestamps are in the clouds' names, "
+                 "poses in the clouds' frame]")
+      ->needs(sequence);
+  app.add_option("--max-difference", tracking.max_difference, "s between a scan and its pose")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(sequence)
+      ->capture_default_str();
+  app.add_option("--delta", tracking.delta, "scans, of relative errors")
+      ->check(CLI::PositiveNumber)
+      ->needs(sequence)
+      ->capture_default_str();
+  app.add_flag("--align", tracking.align, "APE after a rigid alignment")->needs(sequence);
+  app.add_option("--sensor-in-body", options.sensor_in_body,
+                 "x y z qx qy qz qw of the sensor where poses are those of a body")
+      ->expected(7)
+      ->needs(sequence);
+}
+
+int score(Options& options) {
+  if (!options.problems.problem_file.empty()) {
+    if (options.problems.run.empty()) throw pcrb::InvalidParameter("--run: must be given");
+    options.problems.in_dataset_frame = options.frame == "data_set";
+    runProblemScoring(options.problems, std::cout);
+    return pcrb_tools::kSuccess;
+  }
+  if (options.tracking.folder.empty() || options.tracking.output.empty()) {
+    throw pcrb::InvalidParameter(
+        "expected a problem file and --run, or --sequence and --output (see --help)");
+  }
+  options.tracking.poses = options.problems.poses;
+  const std::vector<double>& s = options.sensor_in_body;
+  if (!s.empty()) {
+    options.tracking.T_body_sensor =
+        pcrb::makeTransform({s[0], s[1], s[2]}, Eigen::Quaterniond(s[6], s[3], s[4], s[5]));
+  }
+  runTrackingScoring(options.tracking, std::cout);
+  return pcrb_tools::kSuccess;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Scores poses offline: of registration problems, into a run like the server's, or of a "
+      "sequence's scans, with the field's errors of trajectories.");
+  app.footer(
+      "Examples: score_poses ~/pcrb/eth/apartment_local.txt --poses mine.txt --run ~/runs/mine\n"
+      "score_poses ~/pcrb/eth/apartment_local.txt --key problems.key --poses answers.bag \\\n"
+      "  --topic /pose --run ~/runs/mine\n"
+      "score_poses --sequence ~/pcrb/tum/pioneer_slam --poses est.tum --output ~/runs/tracking");
+  Options options;
+  addOptions(app, options);
+  return pcrb_tools::runTool(app, argc, argv, [&options] { return score(options); });
+}
