@@ -1,5 +1,6 @@
 #include "pcrb_core/io/pcd.hpp"
 
+#include <array>
 #include <initializer_list>
 
 #include "pcd_data.hpp"
@@ -70,14 +71,17 @@ DatasetCloud parsePcd(const char* begin, const char* end, const std::string& nam
 void writePcd(const std::string& path, const DatasetCloud& cloud) {
   AtomicFile file(path);
   file.write(formatHeader(cloud));
-  std::string row;
+  std::array<char, 3 * (kLongestNumber + 1)> row;
   for (const Eigen::Vector3d& point : cloud.points) {
     if (!point.allFinite()) {
       throw InvalidFile(path, "cannot write a point that is not finite");
     }
-    row.clear();
-    appendValues(row, {point.x(), point.y(), point.z()});
-    file.write(row);
+    char* end = row.data();
+    for (int axis = 0; axis < 3; ++axis) {
+      end = writeShortest(end, point[axis]);
+      *end++ = axis < 2 ? ' ' : '\n';
+    }
+    file.write({row.data(), static_cast<std::size_t>(end - row.data())});
   }
   file.commit();
 }

@@ -69,6 +69,29 @@ TEST(Number, ShortestTextReadsBackToTheSameBits) {
   EXPECT_EQ(formatShortest(8045123.123456789), "8045123.123456789");
 }
 
+TEST(Number, ShortestTextIsThatOfToChars) {
+  const auto expect_like_to_chars = [](double value) {
+    char digits[64];
+    const std::string expected(digits, std::to_chars(digits, digits + 64, value).ptr);
+    ASSERT_EQ(formatShortest(value), expected);
+  };
+  for (const double value :
+       {0.0,      -0.0,      1.0,     -1.5,    0.001,     0.0009999,    0.001001,
+        1e-6,     9999.0,    10000.0, 12000.0, 99999.0,   99999.999999, 100000.0,
+        100000.5, 1234567.0, 1e300,   5e-324,  0.1 + 0.2, 0.3,          4.35}) {
+    expect_like_to_chars(value);
+    expect_like_to_chars(-value);
+  }
+  std::mt19937_64 bits(9);
+  for (int i = 0; i < 300000; ++i) {
+    const auto whole = static_cast<double>(bits() >> (20 + bits() % 44));
+    for (const double divisor : {1.0, 100.0, 1e6, 1e7}) {
+      expect_like_to_chars(whole / divisor);
+      expect_like_to_chars(std::nextafter(whole / divisor, 0.0));
+    }
+  }
+}
+
 /// Scans a number that stands in a longer text, where the fast path is open.
 void expectScansLikeFromChars(const std::string& number) {
   const std::string text = number + " " + std::string(40, '7');

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,6 +27,12 @@ std::optional<std::uint64_t> parseUnsigned(std::string_view text) noexcept;
 
 /// Appends the shortest text that reads back to the same double (`nan`, `inf`, `-inf` included).
 void appendShortest(std::string& text, double value);
+
+/// The same into memory, for what writes millions: kLongestNumber characters must be free at `out`.
+/// @return  one past the last character.
+constexpr std::size_t kLongestNumber = 32;
+char* writeShortest(char* out, double value) noexcept;
+
 std::string formatShortest(double value);
 
 /// Appends with a fixed number of decimals, rounded half to even on the exact value.
