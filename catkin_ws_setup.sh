@@ -26,7 +26,7 @@ needed_debian_packages=(
   libtopic-tools-dev libxmlrpcpp-dev python3-tf2-ros python3-yaml
   libarchive-dev libbenchmark-dev libboost-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
   libnanoflann-dev libpcl-dev libpng-dev libsodium-dev libsqlite3-dev libtinyxml2-dev libyaml-cpp-dev
-  nlohmann-json3-dev
+  nlohmann-json3-dev pybind11-dev python3-dev python3-pytest
 )
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
 ci_debian_packages=(catkin-lint chromium clang clang-format clang-tidy libclang-rt-14-dev locales shellcheck xvfb)

@@ -1,0 +1,196 @@
+// The extension module pcrb._pcrb: C++ functions as they are. What users see, with names, checks
+// and docstrings, is pcrb/__init__.py.
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/evaluation/homologous_error.hpp"
+#include "pcrb_core/evaluation/metric.hpp"
+#include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/problem/perturbation.hpp"
+#include "pcrb_core/problem/problem_file.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+using Array = py::array_t<double, py::array::c_style>;  // (n, 3)
+using Rows = Eigen::Matrix<double, 3, 4>;
+
+pcrb::DatasetCloud toCloud(const Array& array) {
+  pcrb::DatasetCloud cloud;
+  const auto rows = array.unchecked<2>();
+  cloud.points.reserve(static_cast<std::size_t>(rows.shape(0)));
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
+    cloud.points.emplace_back(rows(i, 0), rows(i, 1), rows(i, 2));
+    if (!cloud.points.back().allFinite()) {
+      throw pcrb::InvalidProblem("found point " + std::to_string(i) +
+                                 " not finite, expected finite points only");
+    }
+  }
+  return cloud;
+}
+
+Array toArray(const std::vector<Eigen::Vector3d>& points) {
+  Array array(std::vector<py::ssize_t>{static_cast<py::ssize_t>(points.size()), 3});
+  auto rows = array.mutable_unchecked<2>();
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
+    for (py::ssize_t axis = 0; axis < 3; ++axis) {
+      rows(i, axis) = points[static_cast<std::size_t>(i)][axis];
+    }
+  }
+  return array;
+}
+
+py::dict readPcd(const std::string& path, int threads) {
+  pcrb::DatasetCloud cloud;
+  {
+    const py::gil_scoped_release release;
+    cloud = pcrb::readPcd(path, {threads});
+  }
+  py::dict result;
+  result["points"] = toArray(cloud.points);
+  result["intensity"] = py::none();
+  if (!cloud.intensity.empty()) {
+    result["intensity"] = py::array_t<float>(static_cast<py::ssize_t>(cloud.intensity.size()),
+                                             cloud.intensity.data());
+  }
+  result["viewpoint"] = py::none();
+  if (cloud.hasViewpoint()) {
+    result["viewpoint"] = py::cast(Eigen::Matrix4d(cloud.viewpoint.matrix()));
+  }
+  result["dropped_non_finite"] = cloud.dropped_non_finite;
+  return result;
+}
+
+void writePcd(const std::string& path, const Array& points, const Rows& viewpoint) {
+  pcrb::DatasetCloud cloud = toCloud(points);
+  cloud.viewpoint = pcrb::requireRigid(viewpoint);
+  pcrb::writePcd(path, cloud);
+}
+
+/// The cloud near its origin and the transform there: what Metric wants.
+py::dict evaluate(const Array& source, const Rows& T_residual) {
+  const pcrb::DatasetCloud cloud = toCloud(source);
+  const Eigen::Vector3d origin = pcrb::chooseLocalOrigin(cloud);
+  const pcrb::Metric metric(pcrb::makeLocal(cloud, origin));
+  const pcrb::Transform T = pcrb::inLocalFrame(pcrb::requireRigid(T_residual), origin);
+  const pcrb::PoseError error = metric.evaluate(T);
+  py::dict result;
+  result["error"] = error.error;
+  result["rotation_error_rad"] = error.rotation_error;
+  result["translation_error_m"] = error.translation_error;
+  result["mean_distance_m"] = metric.unnormalized(T);
+  return result;
+}
+
+py::list readProblems(const std::string& path) {
+  py::list list;
+  for (const pcrb::Problem& problem : pcrb::readProblemFile(path)) {
+    py::dict row;
+    row["id"] = problem.id;
+    row["source"] = problem.source;
+    row["target"] = problem.target;
+    row["overlap"] = problem.overlap;
+    Eigen::Matrix4d P = Eigen::Matrix4d::Identity();
+    P.topRows<3>() = problem.perturbation;
+    row["perturbation"] = py::cast(P);
+    list.append(row);
+  }
+  return list;
+}
+
+void writeProblems(const std::string& path, const std::vector<py::dict>& rows) {
+  std::vector<pcrb::Problem> problems;
+  for (const py::dict& row : rows) {
+    const auto P = row["perturbation"].cast<Eigen::Matrix4d>();
+    problems.push_back({row["id"].cast<std::string>(), row["source"].cast<std::string>(),
+                        row["target"].cast<std::string>(), row["overlap"].cast<double>(),
+                        P.topRows<3>()});
+  }
+  pcrb::writeProblemFile(path, problems);
+}
+
+Array moved(const Array& points, const Rows& rows) {
+  const pcrb::Transform T = pcrb::requireRigid(rows);
+  std::vector<Eigen::Vector3d> result = toCloud(points).points;
+  for (auto& point : result) point = T * point;
+  return toArray(result);
+}
+
+Eigen::Matrix4d perturbationAbout(const Array& points, const Eigen::Vector3d& translation,
+                                  const Eigen::Matrix3d& rotation) {
+  Rows checked;
+  checked << rotation, translation;
+  pcrb::requireRigid(checked);
+  return pcrb::makePerturbation(pcrb::centroid(toCloud(points)), translation, rotation).matrix();
+}
+
+template <typename Value>
+py::object orNone(const std::optional<Value>& value) {
+  return value ? py::cast(*value) : py::object(py::none());
+}
+
+py::list readResults(const std::string& folder) {
+  const pcrb::ResultsStore store(folder, pcrb::ResultsStore::Access::kReadOnly);
+  py::list list;
+  for (const pcrb::Result& result : store.results()) {
+    py::dict row;
+    row["data_set"] = result.key.data_set;
+    row["sequence"] = result.key.sequence;
+    row["kind"] = toString(result.key.kind);
+    row["problem_id"] = result.key.problem_id;
+    row["source"] = result.source;
+    row["target"] = result.target;
+    row["overlap"] = result.overlap;
+    row["outcome"] = toString(result.outcome);
+    row["reason"] = result.reason;
+    row["error"] = result.error;
+    row["initial_misalignment"] = result.initial_misalignment;
+    row["rotation_error_rad"] = result.rotation_error;
+    row["translation_error_m"] = result.translation_error;
+    row["runtime_s"] = orNone(result.runtime);
+    row["solver_time_s"] = orNone(result.solver_time);
+    row["position"] = orNone(result.position);
+    row["orientation"] = py::none();
+    if (result.orientation) row["orientation"] = py::cast(result.orientation->coeffs().eval());
+    list.append(row);
+  }
+  return list;
+}
+
+std::map<std::string, std::string> readRunInfo(const std::string& folder) {
+  auto info = pcrb::ResultsStore(folder, pcrb::ResultsStore::Access::kReadOnly).runInfo();
+  return info;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_pcrb, module) {
+  const auto base = py::register_exception<pcrb::Error>(module, "Error", PyExc_RuntimeError);
+  py::register_exception<pcrb::InvalidFile>(module, "InvalidFile", base);
+  py::register_exception<pcrb::InvalidProblem>(module, "InvalidProblem", base);
+  py::register_exception<pcrb::InvalidParameter>(module, "InvalidParameter", base);
+  py::register_exception<pcrb::StoreError>(module, "StoreError", base);
+  module.def("error", [](const Array& aligned, const Array& ground_truth) {
+    return pcrb::error(toCloud(aligned).points, toCloud(ground_truth).points);
+  });
+  module.def("evaluate", &evaluate);
+  module.def("read_pcd", &readPcd);
+  module.def("write_pcd", &writePcd);
+  module.def("read_problems", &readProblems);
+  module.def("write_problems", &writeProblems);
+  module.def("move", &moved);
+  module.def("perturbation_about", &perturbationAbout);
+  module.def("read_results", &readResults);
+  module.def("read_run_info", &readRunInfo);
+}

@@ -1,0 +1,197 @@
+"""Tests of the Python package pcrb; run by catkin, by ctest, and after an installation by pip."""
+import os
+import pathlib
+import sqlite3
+import tempfile
+import unittest
+
+import numpy as np
+import pcrb
+
+SHARED_DATA = pathlib.Path(os.environ.get('PCRB_SHARED_DATA', os.environ.get('PCRB_SHARED_DATA_DEFAULT', '/nowhere')))
+UTM = np.array([702000.0, 8045000.0, 100.0])
+
+
+class VectorLike:
+    """What open3d.utility.Vector3dVector is to numpy: a sequence of triples with an array interface."""
+
+    def __init__(self, rows):
+        self._rows = np.asarray(rows, dtype=np.float64)
+
+    def __array__(self, dtype=None):
+        return self._rows if dtype is None else self._rows.astype(dtype)
+
+
+class CloudLike:
+    """Stands for open3d.geometry.PointCloud."""
+
+    def __init__(self, rows):
+        self.points = VectorLike(rows)
+
+
+def some_points(count=200, offset=0.0):
+    return np.random.default_rng(1).uniform(-20.0, 20.0, (count, 3)) + offset
+
+
+def some_rotation(angle=0.3):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def paper_error(aligned, truth):
+    weights = np.linalg.norm(aligned - aligned.mean(axis=0), axis=1)
+    return float(np.mean(np.linalg.norm(aligned - truth, axis=1) / weights))
+
+
+class ErrorTest(unittest.TestCase):
+    def test_is_equation_1(self):
+        truth = some_points()
+        aligned = truth @ some_rotation().T + [0.1, 0.2, 0.3]
+        self.assertAlmostEqual(pcrb.error(aligned, truth), paper_error(aligned, truth), places=12)
+        self.assertEqual(pcrb.error(truth, truth), 0.0)
+
+    def test_takes_clouds_with_points_and_lists_and_single_precision(self):
+        truth = some_points(offset=1.0)
+        aligned = truth + [0.5, 0.0, 0.0]
+        expected = pcrb.error(aligned, truth)
+        self.assertEqual(pcrb.error(CloudLike(aligned), CloudLike(truth)), expected)
+        self.assertEqual(pcrb.error(aligned.tolist(), np.asfortranarray(truth)), expected)
+        self.assertAlmostEqual(pcrb.error(aligned.astype(np.float32), truth.astype(np.float32)), expected, places=5)
+
+    def test_refuses_what_is_not_homologous(self):
+        truth = some_points()
+        with self.assertRaisesRegex(pcrb.InvalidProblem, '199 aligned points and 200'):
+            pcrb.error(truth[1:], truth)
+        with self.assertRaisesRegex(ValueError, r'aligned: found shape \(200, 2\)'):
+            pcrb.error(truth[:, :2], truth)
+        truth[7, 1] = np.nan
+        with self.assertRaisesRegex(pcrb.Error, 'point 7'):
+            pcrb.error(truth, truth)
+
+    def test_evaluate_gives_the_same_from_the_pose_alone_even_in_utm(self):
+        truth = some_points(offset=UTM)
+        P = pcrb.make_perturbation(truth, [0.3, 0.4, 0.0], some_rotation())
+        score = pcrb.evaluate(CloudLike(truth), P)
+        self.assertAlmostEqual(score['error'], pcrb.error(pcrb.perturb(truth, P), truth), places=7)
+        self.assertAlmostEqual(score['rotation_error_rad'], 0.3, places=9)
+        self.assertAlmostEqual(score['translation_error_m'], 0.5, places=7)
+        self.assertGreater(score['mean_distance_m'], 0.5)
+
+    def test_evaluate_refuses_a_pose_that_is_not_rigid(self):
+        with self.assertRaises(pcrb.InvalidProblem):
+            pcrb.evaluate(some_points(), 2.0 * np.eye(4)[:3])
+        with self.assertRaisesRegex(ValueError, 'last row'):
+            pcrb.evaluate(some_points(), np.ones((4, 4)))
+
+
+class PerturbationTest(unittest.TestCase):
+    def test_turns_about_the_centroid(self):
+        points = some_points(offset=UTM)
+        P = pcrb.make_perturbation(points, [1.0, 2.0, 3.0], some_rotation())
+        self.assertEqual(P.shape, (4, 4))
+        moved = pcrb.perturb(points, P).mean(axis=0) - points.mean(axis=0)
+        np.testing.assert_allclose(moved, [1.0, 2.0, 3.0], atol=1e-6)
+
+    def test_refuses_a_matrix_that_is_no_rotation(self):
+        with self.assertRaises(pcrb.InvalidProblem):
+            pcrb.make_perturbation(some_points(), [0, 0, 0], np.diag([1.0, 1.0, -1.0]))
+
+
+class FileTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_pcd_reads_back_to_the_same_doubles(self):
+        points = some_points(offset=UTM)
+        viewpoint = np.eye(4)
+        viewpoint[:3, 3] = [1.0, 2.0, 3.0]
+        pcrb.write_pcd(self.folder / 'a.pcd', CloudLike(points), viewpoint)
+        read = pcrb.read_pcd(self.folder / 'a.pcd', threads=2)
+        np.testing.assert_array_equal(read['points'], points)
+        np.testing.assert_array_equal(read['viewpoint'], viewpoint)
+        self.assertIsNone(read['intensity'])
+        self.assertEqual(read['dropped_non_finite'], 0)
+
+    def test_a_defect_names_file_and_line(self):
+        path = self.folder / 'broken.pcd'
+        path.write_text('VERSION 0.7\nFIELDS x y z\nSIZE 4 4\n')
+        with self.assertRaisesRegex(pcrb.InvalidFile, 'broken.pcd:3'):
+            pcrb.read_pcd(path)
+
+    def test_problems_read_back_as_they_were(self):
+        P = pcrb.make_perturbation(some_points(), [1.0, 0.5, 0.25], some_rotation())
+        problems = [{'id': '12340', 'source': 'a.pcd', 'target': 'b.pcd', 'overlap': 0.5, 'perturbation': P}]
+        pcrb.write_problems(self.folder / 'p.txt', problems)
+        (read,) = pcrb.read_problems(self.folder / 'p.txt')
+        np.testing.assert_array_equal(read.pop('perturbation'), P)
+        self.assertEqual(read, {key: value for key, value in problems[0].items() if key != 'perturbation'})
+        problems[0]['source'] = 'a/b.pcd'
+        with self.assertRaises(pcrb.InvalidProblem):
+            pcrb.write_problems(self.folder / 'p.txt', problems)
+
+    def test_results_need_a_store(self):
+        with self.assertRaises(pcrb.StoreError):
+            pcrb.read_results(self.folder / 'nothing')
+
+    def test_published_problems_pose_what_they_say(self):
+        if not SHARED_DATA.is_dir():
+            self.skipTest('no shared data beside the checkout')
+        folder = SHARED_DATA / 'benchmark' / 'automotive'
+        problem = pcrb.read_problems(folder / 'street_local.txt')[0]
+        source = pcrb.read_pcd(folder / 'street' / problem['source'])['points']
+        score = pcrb.evaluate(source, problem['perturbation'])
+        handed_out = pcrb.perturb(source, problem['perturbation'])
+        self.assertAlmostEqual(score['error'], paper_error(handed_out, source), places=6)
+
+
+class ResultsTest(unittest.TestCase):
+    """On a store with one reply, and one problem that nobody answered."""
+
+    COLUMNS = ('data_set, sequence, kind, problem_id, source, target, overlap, outcome, reason, error, '
+               'initial_misalignment, rotation_error_rad, translation_error_m, runtime_s, solver_time_s, scans_used, '
+               'target_changed, replies_rejected, x, y, z, qx, qy, qz, qw, covariance, finished')
+    REPLIED = ('eth', 'plain', 'local', '12340', 'a.pcd', 'b.pcd', 0.5, 'replied', '', 0.01, 0.2, 0.001, 0.02, 0.3, 0.1,
+               None, 0, 0, 1.0, 2.0, 3.0, 0.0, 0.0, 0.6, 0.8, None, 5.0)
+    TIMED_OUT = ('eth', 'plain', 'local', '12341', 'a.pcd', 'b.pcd', 0.5, 'timed_out', '', 0.2, 0.2, 0.1, 0.3, None, None,
+                 None, 0, 0, None, None, None, None, None, None, None, None, 6.0)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.run_folder = folder.name
+        store = sqlite3.connect(os.path.join(folder.name, 'results.sqlite'))
+        store.executescript(f'PRAGMA journal_mode = WAL; PRAGMA user_version = 1; CREATE TABLE run(key, value);'
+                            f'CREATE TABLE session(started, ended, host, pid); CREATE TABLE result({self.COLUMNS});')
+        store.execute("INSERT INTO run VALUES ('seed', '1')")
+        marks = ', '.join('?' * len(self.REPLIED))
+        store.executemany(f'INSERT INTO result VALUES ({marks})', [self.REPLIED, self.TIMED_OUT])
+        store.commit()
+        store.close()
+
+    def test_columns_are_arrays_with_nan_where_unknown(self):
+        results = pcrb.read_results(self.run_folder)
+        self.assertEqual(results['problem_id'].tolist(), ['12340', '12341'])
+        self.assertEqual(results['outcome'].tolist(), ['replied', 'timed_out'])
+        np.testing.assert_array_equal(results['error'], [0.01, 0.2])
+        np.testing.assert_array_equal(results['runtime_s'], [0.3, np.nan])
+        np.testing.assert_array_equal(results['position'], [[1.0, 2.0, 3.0], [np.nan] * 3])
+        np.testing.assert_array_equal(results['orientation'], [[0.0, 0.0, 0.6, 0.8], [np.nan] * 4])
+        self.assertEqual(results['overlap'].dtype, np.float64)
+
+    def test_the_runs_table_is_a_dict(self):
+        self.assertEqual(pcrb.read_run_info(self.run_folder), {'seed': '1'})
+
+
+class DocumentationTest(unittest.TestCase):
+    def test_every_public_function_says_what_it_returns_and_raises(self):
+        for name in pcrb.__all__:
+            thing = getattr(pcrb, name)
+            if isinstance(thing, type):
+                continue
+            self.assertRegex(thing.__doc__, 'Returns|Writes|a dict', name)
+
+
+if __name__ == '__main__':
+    unittest.main()
