@@ -73,9 +73,9 @@ class Child:
         self.process.send_signal(signal.SIGINT)
 
     def kill(self):
-        """SIGKILL at once; does nothing to a process that has ended."""
-        if not self.ended():
-            self.process.kill()
+        """SIGKILL at once to it and to what it started; does nothing to processes that have ended."""
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
 
 
