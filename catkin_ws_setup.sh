@@ -18,15 +18,15 @@ packages=(launch localization_standins pcrb_core pcrb_msgs pcrb_server pcrb_tool
 
 needed_debian_packages=(
   catkin ccache cmake g++ make pkg-config
-  libros-rosgraph-msgs-dev librosbag-dev librostest-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev libtf2-ros-dev
-  libvisualization-msgs-dev ros-base-dev rviz
-  python3-geometry-msgs python3-jinja2 python3-matplotlib python3-nav-msgs python3-numpy python3-rosbag python3-rosgraph-msgs
-  python3-rosnode python3-rospy python3-rostest
-  python3-sensor-msgs python3-std-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs
-  libtopic-tools-dev libxmlrpcpp-dev python3-tf2-ros python3-yaml
+  libros-rosgraph-msgs-dev librosbag-dev librostest-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
+  libtf2-ros-dev libtopic-tools-dev libvisualization-msgs-dev libxmlrpcpp-dev ros-base-dev rosbash rviz
+  python3-dev python3-geometry-msgs python3-jinja2 python3-matplotlib python3-nav-msgs python3-numpy
+  python3-pytest python3-rosbag python3-rosgraph-msgs python3-rosnode python3-rospy python3-rostest
+  python3-sensor-msgs python3-std-msgs python3-std-srvs python3-tf2-msgs python3-tf2-ros
+  python3-visualization-msgs python3-yaml
   libarchive-dev libbenchmark-dev libboost-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
   libnanoflann-dev libpcl-dev libpng-dev libsodium-dev libsqlite3-dev libtinyxml2-dev libyaml-cpp-dev
-  nlohmann-json3-dev pybind11-dev python3-dev python3-pytest
+  nlohmann-json3-dev pybind11-dev
 )
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
 ci_debian_packages=(catkin-lint chromium clang clang-format clang-tidy libclang-rt-14-dev locales shellcheck xvfb)
