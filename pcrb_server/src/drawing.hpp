@@ -15,11 +15,10 @@ namespace pcrb {
 /// same cloud is another problem's source. The origin for an empty cloud.
 Eigen::Vector3d middleOf(const PointCloud& cloud);
 
-/// Text above a position (m, in the header's frame) and above the target, that always faces the
-/// viewer; the target's size sets that of the letters.
+/// Text above a position (m, in the header's frame) that always faces the viewer; of a size for the
+/// distance from which the rviz configurations look, whatever the extent of the clouds.
 visualization_msgs::Marker textMarker(const std_msgs::Header& header,
-                                      const Eigen::Vector3d& position, const std::string& text,
-                                      const PointCloud& target);
+                                      const Eigen::Vector3d& position, const std::string& text);
 
 /// E.g. `error 0.0123 (initial 0.2)`; a second line says so where there was no valid reply.
 std::string errorText(const Result& result);

@@ -23,9 +23,8 @@ Scene problemScene(const PosedProblem& posed, const ros::Time& stamp, bool show_
 void addText(Scene& scene, const PosedProblem& posed, const Transform& T_map_source,
              const std::string& text, const std::string& map_frame) {
   scene.markers.emplace();
-  scene.markers->markers.push_back(textMarker(makeHeader(map_frame, scene.stamp),
-                                              T_map_source * posed.source->metric->centroid(), text,
-                                              posed.target->cloud));
+  scene.markers->markers.push_back(textMarker(
+      makeHeader(map_frame, scene.stamp), T_map_source * posed.source->metric->centroid(), text));
 }
 
 }  // namespace pcrb

@@ -115,8 +115,8 @@ void Publications::showReply(const PreparedProblem& prepared, const Announcement
   }
   if (markers_.getNumSubscribers() > 0) {
     visualization_msgs::MarkerArray markers;
-    markers.markers.push_back(textMarker(in_map, T_map_source * prepared.source->metric->centroid(),
-                                         errorText(result), prepared.target->cloud));
+    markers.markers.push_back(
+        textMarker(in_map, T_map_source * prepared.source->metric->centroid(), errorText(result)));
     markers_.publish(markers);
   }
 }
