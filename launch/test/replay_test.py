@@ -16,7 +16,7 @@ from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, executable, rows, wait_until
+from pcrb_testing import Child, Launch, TestCase, executable, rows, wait_until
 
 TOPICS = {
     'map': PointCloud2, 'scan': PointCloud2, 'sensor': PoseStamped, 'path': Path, 'target': PointCloud2,
@@ -219,6 +219,14 @@ class ReplayTest(TestCase):
             self.assertEqual(late.header.frame_id, 'map')
         self.call('step')
         replay.wait_for_output('at the end(.*\n)+1/3')
+
+    def test_the_launch_file_shows_sequences_problems_and_runs(self):
+        self.run_of_guesses('registration')
+        sequence = {'root': self.data.root, 'sequence': 'rooms/kitchen'}
+        for arguments in sequence, {**sequence, 'problems': 'global'}, {'run': self.path('run'), 'order': 'best'}:
+            launch = self.start(Launch('replay.launch', rviz='false', rate=100, **arguments))
+            launch.wait()
+            self.assertRegex(launch.output(), r'(?m)^(\d+)/\1 ')
 
     def test_says_every_mistake(self):
         self.assert_fails(self.replay(root=self.data.root, sequence='hal', rate=0, colour='red'),
