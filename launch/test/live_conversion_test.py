@@ -173,6 +173,11 @@ class LiveConversionTest(TestCase):
         folder = self.path('live', 'tum', 'log')
         self.assertEqual([name for name in os.listdir(folder) if name.endswith('.tmp')], [])
 
+    def test_parameters_on_the_command_line_without_a_master_are_an_error_and_no_hang(self):
+        node = self.start(Child([executable('pcrb_tools', 'tum_to_pcd'), '--live', '_root:=live', '_sequence:=log'],
+                                ROS_MASTER_URI='http://127.0.0.1:1'))
+        self.assert_fails(node, 'no ROS master at http://127.0.0.1:1')
+
     def test_an_interrupt_before_the_first_message_says_what_did_not_come(self):
         topic = '/camera/rgb/points'
         node = self.live('tum_to_pcd', poses=self.tum_poses())

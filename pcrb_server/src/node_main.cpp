@@ -76,7 +76,8 @@ class ShutdownWatcher {
 
 namespace {
 
-constexpr double kClockLimit = 5.0;  // s to wait for /clock
+constexpr double kClockLimit = 5.0;   // s to wait for /clock
+constexpr double kMasterLimit = 0.5;  // s to wait for the master at the start
 
 void connect() {
   if (!ros::master::check()) {
@@ -108,7 +109,10 @@ int runNode(int argc, char** argv, const NodeHelp& help,
   }
   const sigset_t signals = ShutdownWatcher::signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  // ros::init sets the parameters of the command line, and without a master would try for ever.
+  ros::master::setRetryTimeout(ros::WallDuration(kMasterLimit));
   ros::init(argc, argv, help.name, ros::init_options::NoSigintHandler);
+  ros::master::setRetryTimeout(ros::WallDuration(0.0));
   ShutdownNotice notice;
   int status = 1;
   try {
