@@ -121,6 +121,15 @@ TEST_F(TumConversion, CloudsWithoutColourOrPoseAreDroppedAndReported) {
   EXPECT_EQ(dropped("after the last pose"), 1u);
 }
 
+TEST_F(TumConversion, PointsThatAreNotFiniteAreLeftOutWhateverIsDenseSays) {
+  auto cloud = makeCloud(headerAt(kSecond, kNano, kFrame), {NAN, 1.f, 1.f, 0.5f, 0.25f, 2.f});
+  cloud.is_dense = true;
+  pcrb_test::BagWriter(bag()).add(kTopic, cloud);
+  const ConversionReport report = convertTum(request(bag()));
+  EXPECT_EQ(report.points.non_finite, 1u);
+  EXPECT_EQ(report.points.written(), 1u);
+}
+
 TEST_F(TumConversion, CloudsThatAProblemFileNamesAndConversionRefusedAreListed) {
   pcrb_test::BagWriter(bag())
       .add(kTopic, makeCloud(headerAt(kSecond, kNano, kFrame), {0.5f, 0.25f, 2.f}))
