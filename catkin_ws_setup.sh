@@ -4,7 +4,7 @@
 #   catkin_ws_setup.sh deps      installs the Debian packages that are missing (apt-get, as root or by sudo)
 #   catkin_ws_setup.sh build     deps, links to the packages in src/pcrb/, catkin_make
 #   catkin_ws_setup.sh test      build, then all unit tests and rostests; --long adds those that take minutes
-#   catkin_ws_setup.sh demo      build, then from simulated logs of four data sets to a scored run
+#   catkin_ws_setup.sh demo      build, then from simulated logs of four data sets to a scored run and a report
 #   catkin_ws_setup.sh clean     removes what the others made in this checkout
 #   catkin_ws_setup.sh help      prints this text
 #
@@ -223,8 +223,12 @@ show_demo() {
     time_limit:=30 || fail "roslaunch failed, see above"
   # roslaunch succeeds whatever became of its nodes; the summary is there only if every problem has its result.
   [ -s "$run/summary.txt" ] || fail "the run did not finish, see above"
-  say "demo: done; $run has results.csv, results.sqlite and this summary.txt:"
+  say "demo: $run has results.csv, results.sqlite and this summary.txt:"
   cat "$run/summary.txt"
+  say "demo: run the paper's experiments, seven methods, on 40 problems each"
+  rosrun pcrb_tools run_paper --root "$data" --run "$root/demo/paper" --subset 40 --time-limit 30 >"$root/demo/paper.log" ||
+    { tail -5 "$root/demo/paper.log" >&2; fail "the paper's experiments did not finish, see above"; }
+  say "demo: done; open $root/demo/paper/report/index.html"
 }
 
 # --- clean ------------------------------------------------------------------------------------------

@@ -187,6 +187,9 @@ def components(table, colors, axes, unit):
                             f'to {error(row["q75"])}, q05 to q95 {error(row["q05"])} to {error(row["q95"])}')
             rows.append(row)
     rows.sort(key=lambda row: axes.index(row['axis']))
+    for before, row in zip(rows, rows[1:]):
+        if row['axis'] == before['axis']:
+            row['label'] = ''
     widest = max([4 * max(abs(row['q25']), abs(row['q75'])) for row in rows] + [1e-6])
     return Rows(Linear(-widest, widest), f'error in {unit}', rows, f'errors in {unit}').draw(
         ('q05', 'q95'), ('q25', 'q75'), 'median')

@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 #include "evaluation/some_results.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
@@ -53,6 +54,12 @@ class ProblemDetailsTest : public ::testing::Test {
     entry_.problems = {problem};
   }
 
+  void addComponents() {
+    std::ostringstream out;
+    Progress progress("errors", "problems", 1, out, false, std::chrono::steady_clock::now);
+    ProblemDetails(folder_.path()).addComponents(entry_, progress);
+  }
+
   const Eigen::Vector3d shift_{3e6, 4e6, 100.0};
   pcrb_test::TemporaryFolder folder_;
   pcrb::DatasetCloud cloud_;
@@ -60,7 +67,7 @@ class ProblemDetailsTest : public ::testing::Test {
 };
 
 TEST_F(ProblemDetailsTest, AreTheErrorsOfTheReplyAlongAndAboutEachAxis) {
-  ProblemDetails(folder_.path()).addComponents(entry_);
+  addComponents();
   const auto components = entry_.problems[0].components.value();
   const std::array<double, 6> expected{0.1, 0.0, -0.3, 0.0, 0.0, 0.02};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(components[i], expected[i], 1e-4) << i;
@@ -69,21 +76,19 @@ TEST_F(ProblemDetailsTest, AreTheErrorsOfTheReplyAlongAndAboutEachAxis) {
 
 TEST_F(ProblemDetailsTest, AreUnknownOfAProblemWithoutAReply) {
   entry_.problems[0].reply.reset();
-  ProblemDetails(folder_.path()).addComponents(entry_);
+  addComponents();
   EXPECT_FALSE(entry_.problems[0].components);
   EXPECT_TRUE(entry_.problems[0].error_per_metre);
 }
 
 TEST_F(ProblemDetailsTest, AreRefusedWhereTheDataAreNotThoseOfTheRun) {
   entry_.problems[0].translation_error = 0.2;
-  PCRB_EXPECT_ERROR(pcrb::InvalidProblem, ProblemDetails(folder_.path()).addComponents(entry_),
+  PCRB_EXPECT_ERROR(pcrb::InvalidProblem, addComponents(),
                     "the data sets have changed since the run");
   entry_.problems[0].key.problem_id = "17";
-  PCRB_EXPECT_ERROR(pcrb::InvalidFile, ProblemDetails(folder_.path()).addComponents(entry_),
-                    "yard_local.txt: has no problem 17");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, addComponents(), "yard_local.txt: has no problem 17");
   entry_.problems[0].key.sequence = "garden";
-  PCRB_EXPECT_ERROR(pcrb::InvalidFile, ProblemDetails(folder_.path()).addComponents(entry_),
-                    "has no problem file of own/garden");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, addComponents(), "has no problem file of own/garden");
 }
 
 TEST_F(ProblemDetailsTest, HaveTheOverlapOfEveryPairInAProblemFileOnce) {

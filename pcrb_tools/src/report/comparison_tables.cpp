@@ -142,7 +142,7 @@ Table correlationTable(const Section& section) {
       "What the error depends on",
       "Spearman's rank correlation of the error with the initial misalignment and with the "
       "overlap. Look at single sequences first: overlaps are not comparable between data "
-      "sets, and pooling hides their effect. `answered` leaves out problems without a valid "
+      "sets, and pooling hides their effect. 'answered' leaves out problems without a valid "
       "reply, whose error is their misalignment.",
       {{"method"}, {"selection"}},
       {}};

@@ -10,7 +10,6 @@
 #include "pcrb_core/problem/presentation.hpp"
 #include "pcrb_core/problem/problem_file.hpp"
 #include "pcrb_core/problem/secret.hpp"
-#include "pcrb_tools/progress.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -144,13 +143,11 @@ void ProblemDetails::addComponents(const Entry& entry, ScoredProblem& problem) {
   problem.components = components.values();
 }
 
-void ProblemDetails::addComponents(Entry& entry) {
-  Progress progress("errors per axis, " + entry.method, "problems", entry.problems.size());
+void ProblemDetails::addComponents(Entry& entry, Progress& progress) {
   for (ScoredProblem& problem : entry.problems) {
     addComponents(entry, problem);
     progress.add();
   }
-  progress.finish();
 }
 
 }  // namespace pcrb_tools

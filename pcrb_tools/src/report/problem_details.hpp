@@ -7,6 +7,7 @@
 
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/problem/dataset.hpp"
+#include "pcrb_tools/progress.hpp"
 #include "report/scored_problem.hpp"
 
 namespace pcrb_tools {
@@ -32,7 +33,7 @@ class ProblemDetails {
   ///
   /// @throws pcrb::Error  naming the problem, if a file is missing, or the pose error that follows
   ///                      from it is not the stored one: the data sets have changed since the run.
-  void addComponents(Entry& entry);
+  void addComponents(Entry& entry, Progress& progress);
 
  private:
   struct Cloud {

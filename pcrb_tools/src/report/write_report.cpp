@@ -164,13 +164,17 @@ using DetailsByRoot = std::map<std::string, ProblemDetails>;
 
 DetailsByRoot addDetails(const ReportOptions& options, std::vector<Entry>& entries) {
   DetailsByRoot details;
+  std::size_t problems = 0;
+  for (const Entry& entry : entries) problems += entry.problems.size();
+  Progress progress("errors along each axis", "problems", problems);
   for (Entry& entry : entries) {
     const std::string root = rootOf(entry, options);
     if (root.empty()) continue;
     ProblemDetails& found = details.emplace(root, root).first->second;
     found.addPairs(entry);
-    if (options.with_components && !entry.info.empty()) found.addComponents(entry);
+    if (options.with_components && !entry.info.empty()) found.addComponents(entry, progress);
   }
+  if (!details.empty() && options.with_components) progress.finish();
   return details;
 }
 

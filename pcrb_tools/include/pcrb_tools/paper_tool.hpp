@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pcrb_tools {
+
+/// What `run_paper` is asked for.
+struct PaperOptions {
+  std::string root;                  ///< folder of the data sets
+  std::string run;                   ///< folder of the runs, one below it per method
+  std::vector<std::string> methods;  ///< empty = all of the paper
+  std::string sequences = "all";
+  int subset = 0;            ///< number of problems per method, 0 = all
+  int seed = 1;              ///< of the subset
+  double time_limit = 60.0;  ///< s per problem
+  int jobs = 1;              ///< benchmarks at the same time; latencies are true with one only
+  bool draw_figures = true;
+};
+
+/// Methods of the paper: icp, gicp, ndt, ppcr (local problems), ransac, fgr, teaser (global ones).
+std::vector<std::string> paperMethods();
+
+/// Runs the paper's experiments, each method in `<run>/<method>`, then writes `<run>/report`.
+///
+/// What is complete is kept, what was interrupted goes on. A method that fails does not keep the
+/// others from running; the report is of those that are complete.
+/// @return  exit status: 0 only if every problem of every method has its result and was reported.
+/// @throws pcrb::Error  if a folder holds a run of another configuration, or nothing is complete.
+int runPaperTool(const PaperOptions& options);
+
+}  // namespace pcrb_tools
