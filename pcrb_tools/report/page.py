@@ -81,7 +81,8 @@ def pivot_of(section, scores, comparisons, published):
         worse = worse_than(comparisons, selection['name'])
         is_tested = level == 'sequence' or selection['name'] == 'total'
         for c in known:
-            c['best'] = best is not None and (c['method'] == best or (is_tested and (c['method'], best) not in worse))
+            is_tie = is_tested and (c['method'], best) not in worse
+            c['mark'] = '' if best is None else 'best' if c['method'] == best else 'tie' if is_tie else ''
         yield {'name': selection['name'], 'cells': cells,
                'published': [published.get((name, selection['name'])) for name in section['published_columns']]}
 
