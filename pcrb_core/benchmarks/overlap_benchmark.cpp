@@ -36,7 +36,7 @@ double processorSeconds() {
 double peakMegabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+  return static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6;  // from KiB
 }
 
 void write(const std::string& path, const Points& points) {
