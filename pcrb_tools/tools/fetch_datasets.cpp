@@ -1,29 +1,10 @@
 #include <ros/package.h>
 
-#include <filesystem>
 #include <iostream>
 
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/fetch/child_process.hpp"
 #include "pcrb_tools/fetch/fetch_tool.hpp"
 #include "pcrb_tools/tool_main.hpp"
-
-namespace {
-
-/// The converter of a log's data set lies beside this program.
-std::vector<std::string> converterOf(const pcrb_tools::SequenceLog& log,
-                                     const pcrb_tools::FetchOptions& options) {
-  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  std::vector<std::string> command{(folder / (log.data_set + "_to_pcd")).string()};
-  command.insert(command.end(), log.inputs.begin(), log.inputs.end());
-  for (const std::string& word : {std::string("--root"), options.root, std::string("--sequence"),
-                                  log.sequence, "--threads=" + std::to_string(options.threads)}) {
-    command.push_back(word);
-  }
-  return command;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -60,9 +41,7 @@ int main(int argc, char** argv) {
       options.sources = ros::package::getPath("pcrb_tools") + "/config/datasets.yaml";
     }
     options.prepare = !fetch_only;
-    options.convert = [&](const pcrb_tools::SequenceLog& log) {
-      return pcrb_tools::runChild(converterOf(log, options)) == 0;
-    };
+    options.convert = [&](const auto& log) { return runConverter(log, options); };
     return runFetchTool(options, std::cout) ? pcrb_tools::kSuccess : pcrb_tools::kFailure;
   });
 }

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
-#include <string_view>
 
+#include "content.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_core/io/pcd.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
-#include "pcrb_tools/archive_reader.hpp"
 #include "pcrb_tools/check_tool.hpp"
 #include "pcrb_tools/fetch/checksums.hpp"
+#include "pcrb_tools/fetch/child_process.hpp"
 #include "pcrb_tools/fetch/sources.hpp"
 #include "pcrb_tools/fetch/unpack.hpp"
 #include "pcrb_tools/progress.hpp"
@@ -49,43 +46,6 @@ std::vector<Source> findWanted(const FetchOptions& options) {
                                [&](const Source& source) { return !isWanted(options, source); }),
                 sources.end());
   return sources;
-}
-
-constexpr std::string_view kBagMagic = "#ROSBAG V2.0";
-
-/// Goes through all of an archive: it must be whole, and its names must not point out of it.
-void requireArchive(const std::string& path) {
-  ArchiveReader archive(path);
-  if (!archive.next()) throw pcrb::InvalidFile(path, 0, "an empty archive", "files in it");
-  while (archive.next()) continue;
-}
-
-void requireLog(const Source& source, const std::string& path) {
-  if (beginsLikeHtml(path)) throw pcrb::InvalidFile(path, 0, "an HTML page", "a log");
-  if (fs::path(source.file).extension() != ".bag") return;
-  std::string magic(kBagMagic.size(), ' ');
-  std::ifstream(path, std::ios::binary).read(magic.data(), static_cast<long>(magic.size()));
-  if (magic != kBagMagic) throw pcrb::InvalidFile(path, 0, "another beginning", "a bag of ROS 1");
-}
-
-/// The whole file must be what its kind is: a page of HTML with a good name is not.
-void requireContent(const Source& source, const std::string& path) {
-  if (source.bytes && fs::file_size(path) != *source.bytes) {
-    throw pcrb::InvalidFile(path, 0, std::to_string(fs::file_size(path)) + " bytes",
-                            std::to_string(*source.bytes));
-  }
-  switch (source.kind) {
-    case SourceKind::kCloud:
-      pcrb::readPcd(path);
-      return;
-    case SourceKind::kProblems:
-      pcrb::readProblemFile(path);
-      return;
-    case SourceKind::kClouds:
-      return requireArchive(path);
-    case SourceKind::kLog:
-      return isArchiveName(source.file) ? requireArchive(path) : requireLog(source, path);
-  }
 }
 
 /// One run of the tool.
@@ -251,6 +211,15 @@ class Fetch {
 };
 
 }  // namespace
+
+bool runConverter(const SequenceLog& log, const FetchOptions& options) {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  std::vector<std::string> command{(folder / (log.data_set + "_to_pcd")).string()};
+  command.insert(command.end(), log.inputs.begin(), log.inputs.end());
+  command.insert(command.end(), {"--root", options.root, "--sequence", log.sequence, "--threads",
+                                 std::to_string(options.threads)});
+  return runChild(command) == 0;
+}
 
 bool runFetchTool(const FetchOptions& options, std::ostream& out) {
   return Fetch(options, out).run();

@@ -32,6 +32,12 @@ struct FetchOptions {
   DownloadPolicy policy;
 };
 
+/// Runs the converter of a log's data set, which lies beside this program, as a process of its own.
+///
+/// @return  whether it succeeded; it has said itself what was wrong.
+/// @throws pcrb::InvalidFile  if it cannot be started.
+bool runConverter(const SequenceLog& log, const FetchOptions& options);
+
 /// Fetches the files of the wanted sequences, verifies them, puts clouds and problem files into the
 /// common layout, converts the logs and checks the result.
 ///
