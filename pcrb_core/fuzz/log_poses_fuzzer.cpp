@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto with = [](auto parse) {
     return [parse](std::string_view t, const std::string& name) { requireFinite(parse(t, name)); };
   };
-  switch (data[0] % 6) {
+  switch (data[0] % 7) {
     case 0:
       tryToParse(pcrb::parseLeicaPoses, text);
       break;
@@ -49,6 +49,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 4:
       tryToParse(pcrb::parseTumImageList, text);
+      break;
+    case 5:
+      tryToParse(pcrb::parseKaistStamps, text);
       break;
     default:
       tryToParse(pcrb::parsePlanetaryScan, text);

@@ -6,7 +6,7 @@
 
 #include "pcrb_core/io/number.hpp"
 
-/// The fast path agrees with std::from_chars to the bit, wherever it stops.
+/// The fast paths agree with std::from_chars and std::to_chars to the bit, wherever they stop.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 0 && data[0] == '+') return 0;  // the one difference, tested elsewhere
   // Padded: only inside a longer text is the fast path open.
@@ -18,6 +18,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   double value = 0.0;
   const char* const behind = pcrb::scanDouble(text.data(), end, value);
   if (behind != (result.ec == std::errc() ? result.ptr : nullptr)) __builtin_trap();
-  if (behind != nullptr && std::memcmp(&value, &expected, sizeof(value)) != 0) __builtin_trap();
+  if (behind == nullptr) return 0;
+  if (std::memcmp(&value, &expected, sizeof(value)) != 0) __builtin_trap();
+  char shortest[64];
+  char* const last = std::to_chars(shortest, shortest + sizeof(shortest), value).ptr;
+  if (pcrb::formatShortest(value) != std::string(shortest, last)) __builtin_trap();
   return 0;
 }
