@@ -39,11 +39,11 @@ class EvaluateTest(TestCase):
         super().setUp()
         self.data = maths.make_data_set(self.path('root'), points=300)
 
-    def rostest(self, **arguments):
-        """evaluate.test with a master of its own."""
+    def rostest(self, *options, **arguments):
+        """evaluate.test, with a master of its own unless the options say otherwise."""
         arguments = {'root': self.data.root, 'run': self.path('run'), 'method': 'icp', **arguments}
-        return self.start(Child(['rostest', '--results-base-dir', self.path('results'), 'pcrb_launch', 'evaluate.test',
-                                 *(f'{name}:={value}' for name, value in arguments.items())]))
+        return self.start(Child(['rostest', *options, '--results-base-dir', self.path('results'), 'pcrb_launch',
+                                 'evaluate.test', *(f'{name}:={value}' for name, value in arguments.items())]))
 
     def report(self):
         return Report(self.path('results'))
@@ -102,6 +102,12 @@ class EvaluateTest(TestCase):
     def test_a_run_without_end_fails_when_its_time_is_up(self):
         self.assert_fails_with(self.rostest(client='false', time_limit_total=2),
                                r'not over within 2 s \(time_limit_total\)')
+
+    def test_parameters_left_on_a_long_lived_master_do_no_harm(self):
+        for node in 'benchmark_server', 'registration_node', 'evaluation':
+            rospy.set_param(f'/pcrb/{node}/colour', 'red')
+        self.assert_ends_well(self.rostest('--reuse-master', sequences='hall'))
+        self.assertEqual(self.report().properties('total local')['count'], str(len(self.data.of('local', 'hall'))))
 
     def test_the_example_package_is_built_and_tested_like_any_other(self):
         source, build = self.path('my_node_evaluation'), self.path('build')
