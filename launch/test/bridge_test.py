@@ -6,25 +6,45 @@ import sys
 import numpy as np
 import rospy
 import rostest
-from localization_standins.algorithms import NdtLocalizer
+from localization_standins.algorithms import NdtLocalizer, ParticleLocalizer, SmoothingLocalizer
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from pcrb_testing import run_info
 from pcrb_testing_bridge import BridgeTestCase
 
-COVARIANCE = np.diag([0.04] * 3 + [0.02] * 3)
+DEVIATIONS = 0.2, 0.14  # m, rad
+COVARIANCE = np.diag(np.repeat(np.square(DEVIATIONS), 3))
 
 
 class BridgeTest(BridgeTestCase):
 
-    def test_an_ndt_localizer_scores_as_its_algorithm_does(self):
+    def check(self, name, answers, algorithm, updates, **parameters):
+        """Through the bridge and directly, on the very same problems."""
         first, second = self.twin_servers()
         server = first()
-        self.standin(server, 'ndt', 'ndt_pose')
-        rows = self.rows_of_bridge(server, self.bridge(server, settle='nth', settle_count=3))
-        others = self.rows_of_algorithm(second(), NdtLocalizer, 3, COVARIANCE)
-        self.assert_same_scores(rows, others, 0.05)
+        self.standin(server, name, answers)
+        rows = self.rows_of_bridge(server, self.bridge(server, settle='nth', settle_count=updates, **parameters))
+        self.assertEqual({row['scans_used'] for row in rows.values()}, {updates})
+        self.assert_same_scores(rows, self.rows_of_algorithm(second(), algorithm, updates, COVARIANCE), 0.05)
+        return server, rows
+
+    def test_an_ndt_localizer(self):
+        server, rows = self.check('ndt', 'ndt_pose', NdtLocalizer, 3)
         self.assert_improves(rows)
-        self.assertEqual({row['scans_used'] for row in rows.values()}, {3})
+        info = run_info(server.run)
+        self.assertGreater(float(info['node_cpu_time_s']), 0.01)
+        self.assertGreater(int(info['node_peak_memory_bytes']), 1 << 24)  # Python and numpy
+
+    def test_a_filter_that_echoes_the_initial_pose_and_goes_half_of_the_way(self):
+        _, rows = self.check('smoothing', 'odom', SmoothingLocalizer, 12)
+        self.assert_improves(rows)
+        for row in rows.values():
+            self.assertEqual(len(row['covariance'].split()), 36)
+
+    def test_a_particle_filter_that_answers_a_scan_when_the_next_comes(self):
+        self.check('particle', 'unused', ParticleLocalizer, 8, pose_topic='tf', tf_odom_base='dynamic',
+                   initialpose_covariance='6dof', initialpose_translation=DEVIATIONS[0],
+                   initialpose_rotation=DEVIATIONS[1], answer_limit=0.5)
 
 
 if __name__ == '__main__':

@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 
 using Info = std::map<std::string, std::string>;
 
-constexpr const char* kMergedFrom = "merged_from";  ///< key that only merged runs have
+constexpr const char* kMergedFrom = "merged_from";       ///< key that only merged runs have
+constexpr const char* kNodeCpuTime = "node_cpu_time_s";  ///< summed
+constexpr const char* kNodePeakMemory = "node_peak_memory_bytes";  ///< the greatest counts
 constexpr const char* kCloudPrefix = "cloud ";
 constexpr const char* kScratch = ".merge";
 
@@ -76,7 +78,8 @@ void requireComplete(const Part& part) {
 
 /// What may differ between shards: what says which shard it is, when and where it ran.
 bool isOfOneShard(const std::string& key) {
-  static const std::set<std::string> keys{"shard", "secret", "created", "root", "problems"};
+  static const std::set<std::string> keys{"shard",    "secret",     "created",      "root",
+                                          "problems", kNodeCpuTime, kNodePeakMemory};
   return keys.count(key) > 0;
 }
 
@@ -102,6 +105,21 @@ std::string differences(const Info& a, const Info& b) {
   return text;
 }
 
+/// What the node under test used in all shards, where their clients told.
+void mergeUsage(const std::vector<Part>& parts, Info& merged) {
+  double cpu_time = 0.0;
+  std::uint64_t peak_memory = 0;
+  for (const Part& part : parts) {
+    const auto time = part.info.find(kNodeCpuTime);
+    if (time != part.info.end()) cpu_time += pcrb::parseDouble(time->second).value_or(0.0);
+    const auto peak = part.info.find(kNodePeakMemory);
+    if (peak == part.info.end()) continue;
+    peak_memory = std::max(peak_memory, pcrb::parseUnsigned(peak->second).value_or(0));
+  }
+  if (cpu_time > 0.0) merged[kNodeCpuTime] = pcrb::formatShortest(cpu_time);
+  if (peak_memory > 0) merged[kNodePeakMemory] = std::to_string(peak_memory);
+}
+
 /// Compares each shard with all before it, so that clouds are compared among all that used them.
 Info requireOneConfiguration(const std::vector<Part>& parts) {
   Info merged = parts.front().info;
@@ -113,6 +131,7 @@ Info requireOneConfiguration(const std::vector<Part>& parts) {
     }
     merged.insert(part.info.begin(), part.info.end());
   }
+  mergeUsage(parts, merged);
   return merged;
 }
 

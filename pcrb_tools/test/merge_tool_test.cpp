@@ -72,6 +72,19 @@ TEST_F(MergeToolTest, GivesTheRunThatWouldHaveBeenWithoutShards) {
   EXPECT_TRUE(fs::exists(options_.output + "/results.csv"));
 }
 
+TEST_F(MergeToolTest, AddsUpWhatTheNodeUnderTestUsed) {
+  Info first = infoOf("0/2", "1"), second = infoOf("1/2", "1");
+  first["node_cpu_time_s"] = "1.5";
+  first["node_peak_memory_bytes"] = "3000";
+  second["node_cpu_time_s"] = "2.25";
+  second["node_peak_memory_bytes"] = "1000";
+  options_.runs = {makeShard("a", first, {"1"}), makeShard("b", second, {"2"})};
+  options_.output = folder_.file("merged");
+  runMergeTool(options_);
+  EXPECT_EQ(merged().runInfo()["node_cpu_time_s"], "3.75");
+  EXPECT_EQ(merged().runInfo()["node_peak_memory_bytes"], "3000");
+}
+
 TEST_F(MergeToolTest, ReplacesWhatAMergeLeftAndNothingElse) {
   makeTwo();
   runMergeTool(options_);

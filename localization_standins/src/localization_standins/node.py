@@ -59,7 +59,7 @@ class Node:
         self.initial = message
         self.is_initialised = False
 
-    def is_ready(self):
+    def is_ready(self, stamp):
         if self.algorithm is None or self.initial is None:
             return False
         if not self.is_initialised:
@@ -67,19 +67,19 @@ class Node:
             self.is_initialised = True
             self.algorithm.initialise(matrix_of(pose.pose.position, pose.pose.orientation),
                                       np.reshape(pose.covariance, (6, 6)), message.header.stamp.to_sec())
-            self.start(message)
+            self.start(stamp)
         return True
 
-    def start(self, message):
-        """Called when there is a new initial pose."""
+    def start(self, stamp):
+        """Called with the stamp of the first scan after a new initial pose."""
 
     def take_scan(self, cloud):
-        if not self.is_ready():
+        if not self.is_ready(cloud.header.stamp):
             return
         try:
             link = self.tf.lookup_transform(self.base_frame, cloud.header.frame_id, cloud.header.stamp,
                                             rospy.Duration(0.5)).transform
-        except (tf2_ros.LookupException, tf2_ros.ConnectivityException, tf2_ros.ExtrapolationException) as error:
+        except tf2_ros.TransformException as error:
             rospy.logwarn('scan dropped: %s', error)
             return
         self.work(moved(matrix_of(link.translation, link.rotation), points_of(cloud)), cloud.header.stamp)

@@ -213,7 +213,10 @@ void LocalizationBridge::sendInitialPose() {
   scan_problem_.T_scan_source = isOptical() ? uprightFromOptical(guess) : Transform::Identity();
   scan_problem_.initial_pose.reset();
   if (!guess || !parameters_.send_initialpose) return;
-  waitFor([this] { return inputs_.isInitialPoseTaken() || !isCurrent(); }, kInitialPoseLimit);
+  if (pose_generation_ != keeper_.generation()) {  // subscriptions of a new node come one by one
+    waitFor([this] { return inputs_.isInitialPoseTaken() || !isCurrent(); }, kInitialPoseLimit);
+    pose_generation_ = keeper_.generation();
+  }
   scan_problem_.initial_pose = bodyPose(*guess, scan_problem_.T_base_source());
   inputs_.sendInitialPose(*scan_problem_.initial_pose, stampNow(clock_));
   pause(parameters_.initialpose_settle);
@@ -237,8 +240,15 @@ void LocalizationBridge::play() {
 }
 
 void LocalizationBridge::submit(Request request) {
+  if (request.status == Request::TIMED_OUT && answers_ && !answers_->mistake().empty()) {
+    request.reason += "; " + answers_->mistake();
+  }
   request.problem_id = problem_->problem_id;
   request.pose.header = problem_->header;
+  if (const auto usage = keeper_.usage()) {
+    request.cpu_time = usage->cpu_time;
+    request.peak_memory = usage->peak_memory;
+  }
   server_.submit(request);
 }
 

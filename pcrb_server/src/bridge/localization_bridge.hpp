@@ -71,9 +71,10 @@ class LocalizationBridge {
   pcrb_msgs::ProblemConstPtr problem_;  ///< that is being served
   ros::Time target_stamp_;              ///< of the target that the map is
   PointCloud map_;
-  bool is_map_due_ = false;        ///< whether it has to be sent
-  std::optional<int> generation_;  ///< of the node that has the map
-  ScanProblem scan_problem_;       ///< what is known of it so far
+  bool is_map_due_ = false;             ///< whether it has to be sent
+  std::optional<int> generation_;       ///< of the node that has the map
+  std::optional<int> pose_generation_;  ///< of the node whose subscription was waited for
+  ScanProblem scan_problem_;            ///< what is known of it so far
 };
 
 }  // namespace pcrb

@@ -9,6 +9,8 @@ namespace pcrb {
 
 namespace {
 
+constexpr double kSupervisorLimit = 10.0;  // s for the supervisor to come up
+constexpr double kQuestionLimit = 0.1;     // s to find out whether there is one
 constexpr double kAnswerLimit = 2.0;  // s for a node that did not answer a problem to show life
 
 }  // namespace
@@ -28,7 +30,11 @@ bool NodeKeeper::restart() {
   left_before_ = inputs_.nodes().empty() ? 0 : inputs_.departures() + 1;
   std_srvs::Trigger service;
   auto client = node_.serviceClient<std_srvs::Trigger>(parameters_.restart_service);
-  const bool is_answered = client.call(service);
+  // The supervisor may just be starting where it is needed for sure.
+  const bool is_supervised = parameters_.restart != BridgeParameters::Restart::kNever;
+  const bool is_answered =
+      client.waitForExistence(ros::Duration(is_supervised ? kSupervisorLimit : kQuestionLimit)) &&
+      client.call(service);
   if (is_answered && service.response.success != 0) return true;
   std::cout << "the node under test cannot be restarted: "
             << (is_answered

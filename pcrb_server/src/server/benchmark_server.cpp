@@ -169,6 +169,7 @@ bool BenchmarkServer::serve(PreparedProblem prepared) {
   loader_.prepareAnother();
   const Result result = scoreReply(prepared, reply);
   record_.add(result);
+  record_.noteUsage(reply.cpu_time, reply.peak_memory);
   ++done_;
   publications_.finish(prepared, announcement, result);
   return true;

@@ -22,6 +22,8 @@ Reply makeReply(const Request& request, const std::optional<Transform>& T_target
   reply.reason = request.reason;
   if (!std::isnan(request.solver_time)) reply.solver_time = request.solver_time;
   if (request.scans_used > 0) reply.scans_used = request.scans_used;
+  reply.cpu_time = request.cpu_time;
+  reply.peak_memory = request.peak_memory;
   if (reply.outcome != Outcome::kReplied) {
     if (reply.reason.empty()) reply.reason = "the client gave no reason";
     return reply;

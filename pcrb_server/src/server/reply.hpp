@@ -21,7 +21,9 @@ struct Reply {
   std::optional<std::array<double, 36>> covariance;
   std::optional<double> solver_time;  ///< s
   std::optional<std::uint32_t> scans_used;
-  std::uint32_t rejected = 0;  ///< rejected replies to this problem before it ended
+  double cpu_time = 0.0;          ///< s, of the node under test for this problem, 0 = unknown
+  std::uint64_t peak_memory = 0;  ///< bytes, of the node under test so far, 0 = unknown
+  std::uint32_t rejected = 0;     ///< rejected replies to this problem before it ended
 };
 
 /// What an accepted request says, its quaternion normalised; online and offline alike.

@@ -50,6 +50,10 @@ std::optional<Rejection> checkContent(const Request& request) {
     return Rejection{Response::NOT_FINITE, "found solver_time " + std::to_string(time) +
                                                ", expected 0 or more, or NaN for unknown"};
   }
+  if (!(request.cpu_time >= 0.0 && std::isfinite(request.cpu_time))) {
+    return Rejection{Response::NOT_FINITE, "found cpu_time " + std::to_string(request.cpu_time) +
+                                               ", expected 0 or more, 0 for unknown"};
+  }
   return request.status == Request::POSE ? checkPose(request) : std::nullopt;
 }
 

@@ -13,6 +13,8 @@ namespace pcrb {
 namespace {
 
 constexpr const char* kMetricVersion = "1";
+constexpr const char* kNodeCpuTime = "node_cpu_time_s";
+constexpr const char* kNodePeakMemory = "node_peak_memory_bytes";
 
 double now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -100,6 +102,15 @@ void RunRecord::noteCloud(const std::string& name, const std::string& hash) {
 void RunRecord::noteClient(const std::string& name, const std::string& parameters) {
   note("client", name);
   if (!parameters.empty()) note("client_parameters", parameters);
+}
+
+void RunRecord::noteUsage(double cpu_time, std::uint64_t peak_memory) {
+  if (cpu_time > 0.0) {
+    const double before = parseDouble(info_[kNodeCpuTime]).value_or(0.0);
+    note(kNodeCpuTime, formatShortest(before + cpu_time));
+  }
+  const auto before = parseUnsigned(info_[kNodePeakMemory]).value_or(0);
+  if (peak_memory > before) note(kNodePeakMemory, std::to_string(peak_memory));
 }
 
 void RunRecord::note(const std::string& key, const std::string& value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -42,6 +43,10 @@ class RunRecord {
   /// noteClient(), for one that must be the same for all results of the run.
   /// @throws StoreError  if the run has results of another one.
   void requireClient(const std::string& name);
+
+  /// Adds to what the node under test has used in this run, as far as its client knows:
+  /// `node_cpu_time_s`, summed over problems, and `node_peak_memory_bytes`.
+  void noteUsage(double cpu_time, std::uint64_t peak_memory);
 
   /// Commits a result: it is on the disk when this returns.
   void add(const Result& result) { store_.add(result); }

@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+"""localization_bridge: types of answers, the sensor's mounting, silence, rivals, services, parameters."""
+import os
+import sys
+
+import numpy as np
+import rospy
+import rostest
+import tf2_ros
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TransformStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu, PointCloud2
+from std_srvs.srv import Empty
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pcrb_testing_data as maths
+from pcrb_testing import wait_until
+from pcrb_testing_bridge import BridgeTestCase
+
+MOTION = maths.transform(maths.axis_angle([0.1, -0.3, 1], 0.05), [0.2, -0.1, 0.05])
+
+
+def fill_transform(transform, T):
+    """Writes a 4 x 4 into a geometry_msgs/Transform."""
+    pose = maths.fill_pose(PoseStamped().pose, T)
+    t = transform.translation
+    t.x, t.y, t.z = pose.position.x, pose.position.y, pose.position.z
+    transform.rotation = pose.orientation
+
+
+def link(parent, child, T, stamp):
+    message = TransformStamped()
+    message.header.frame_id, message.header.stamp, message.child_frame_id = parent, stamp, child
+    fill_transform(message.transform, T)
+    return message
+
+
+def make_answer(kind, stamp, T):
+    """A message of one of the types that nodes publish."""
+    if kind is TransformStamped:
+        return link('map', 'base_link', T, stamp)
+    message = kind()
+    message.header.frame_id, message.header.stamp = 'map', stamp
+    pose = message.pose if kind is PoseStamped else message.pose.pose
+    maths.fill_pose(pose, T)
+    if kind is Odometry:
+        message.child_frame_id = 'base_link'
+    return message
+
+
+class BridgeBehaviourTest(BridgeTestCase):
+
+    def publisher(self, name, kind, **options):
+        publisher = rospy.Publisher(name, kind, queue_size=10, **options)
+        self.addCleanup(publisher.unregister)
+        return publisher
+
+    def answering(self, server, kind=PoseStamped, motion=MOTION, answer=make_answer):
+        """A robot whose answers are of that type."""
+        publisher = self.publisher(f'{server.namespace}/robot/pose', kind)
+        return self.robot(server, lambda stamp, T: publisher.publish(answer(kind, stamp, T)), motion)
+
+    def scores(self, server, **parameters):
+        """Of a run through the bridge; the robot has been made."""
+        rows = self.rows_of_bridge(server, self.bridge(server, **{'settle': 'first', **parameters}))
+        self.assertEqual({row['outcome'] for row in rows.values()}, {'replied'}, rows)
+        return rows
+
+    def assert_motion_is_scored(self, rows):
+        """What is left is MOTION P: the guess is P V, and V is the truth."""
+        for row in rows.values():
+            problem = self.data.by_id(row['problem_id'])
+            error = maths.error(self.data.source_points(problem), MOTION @ self.data.local_P(problem))
+            self.assertAlmostEqual(row['error'] / error, 1, delta=1e-5)
+
+    def test_answers_of_four_types(self):
+        for kind in PoseStamped, PoseWithCovarianceStamped, Odometry, TransformStamped:
+            server = self.localization(run=kind.__name__)
+            robot = self.answering(server, kind)
+            self.assert_motion_is_scored(self.scores(server, map_settle=0.0))
+            robot.close()
+
+    def test_answers_on_tf_are_composed_through_odom(self):
+        server = self.localization()
+        broadcaster = tf2_ros.TransformBroadcaster()
+        drift = maths.transform(maths.axis_angle([0, 0, 1], 1.0), [3.0, 2.0, 0.0])
+
+        def publish(stamp, T):
+            """As a filter beside the robot's own odometry does."""
+            broadcaster.sendTransform([link('odom', 'base_link', drift, stamp),
+                                       link('map', 'odom', T @ np.linalg.inv(drift), stamp)])
+
+        self.robot(server, publish, MOTION)
+        self.assert_motion_is_scored(self.scores(server, pose_topic='tf', tf_odom_base='none'))
+
+    def test_the_sensors_mounting_leaves_the_scores_unchanged(self):
+        tilt = maths.axis_angle([0, 0, 1], np.pi) @ maths.axis_angle([0, 1, 0], np.radians(10))
+        E = maths.transform(tilt, [0.0, 0.0, 1.9])
+        first, second = self.twin_servers()
+        server = first()
+        self.answering(server)
+        rows = self.scores(server)
+        server = second()
+        self.answering(server)
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform(link('base_link', 'lidar', E, rospy.Time.now()))
+        bridge = self.bridge(server, settle='first', tf_base_scan='none', scan_frame='lidar')
+        others = self.rows_of_bridge(server, bridge)
+        self.assert_same_scores(rows, others, 1e-9)
+        initial = [row['initial_misalignment'] for row in rows.values()]
+        self.assertGreater(min(abs(row['error'] - before) for row, before in zip(rows.values(), initial)), 1e-6)
+
+    def test_what_a_node_gets(self):
+        server = self.localization(sequences='kitchen', subset=2)
+        imus, odometry = [], []
+        robot = self.answering(server)
+        for topic, kind, messages in ('imu', Imu, imus), ('odometry', Odometry, odometry):
+            subscriber = rospy.Subscriber(f'{server.namespace}/robot/{topic}', kind, messages.append)
+            self.addCleanup(subscriber.unregister)
+        calls = []
+        service = rospy.Service(f'{server.namespace}/relocalize', Empty, lambda _: calls.append(1) or [])
+        self.addCleanup(service.shutdown)
+        map_file = self.path('the_map.pcd')
+        rows = self.scores(server, settle='nth', settle_count=4, max_scans=9, map_file=map_file,
+                           before_problem=f'{server.namespace}/relocalize',
+                           imu_topic=f'{server.namespace}/robot/imu',
+                           odometry_topic=f'{server.namespace}/robot/odometry')
+        self.assertEqual({row['scans_used'] for row in rows.values()}, {4})
+        self.assertEqual(len(calls), 2)
+        stamps = [scan.header.stamp.to_nsec() for scan in robot.scans]
+        self.assertEqual(stamps, sorted(set(stamps)))
+        self.assertEqual({b - a for a, b in zip(stamps[:4], stamps[1:4])}, {50000000})
+        for scan in robot.scans:
+            self.assertEqual([field.name for field in scan.fields], ['x', 'y', 'z', 'intensity'])
+            self.assertEqual(scan.header.frame_id, 'sensor')
+        self.assertAlmostEqual(robot.initial.pose.covariance[0], 0.25)
+        self.assertEqual(robot.initial.pose.covariance[14], 0.0)
+        wait_until(lambda: imus and odometry, 'IMU and odometry come')
+        self.assertTrue(all(imu.linear_acceleration.z == 9.80665 for imu in imus))
+        self.assertTrue(all(odom.pose.pose.position.x == 0 for odom in odometry))
+        with open(map_file) as file:
+            self.assertIn('DATA ascii', file.read())
+
+    def test_a_silent_node_times_out_with_the_reason(self):
+        server = self.localization(time_limit=1.0, sequences='kitchen', subset=1)
+        self.robot(server, lambda stamp, T: None)
+        rows = self.rows_of_bridge(server, self.bridge(server, answer_limit=0.2))
+        for row in rows.values():
+            self.assertEqual(row['outcome'], 'timed_out')
+            self.assertRegex(row['reason'], r'the node said nothing to \d+ scans')
+            self.assertEqual(row['error'], row['initial_misalignment'])
+
+    def test_a_node_that_only_echoes_and_one_of_an_unknown_type_time_out_with_the_reason(self):
+        server = self.localization(time_limit=1.0, sequences='kitchen', subset=1)
+        publisher = self.publisher(f'{server.namespace}/robot/pose', PoseStamped)
+        answered = []
+
+        def once(stamp, T):
+            if not answered:
+                answered.append(publisher.publish(make_answer(PoseStamped, stamp, T)))
+
+        self.robot(server, once)
+        row, = self.rows_of_bridge(server, self.bridge(server, settle='first', answer_limit=0.2)).values()
+        self.assertEqual(row['outcome'], 'timed_out')
+        self.assertIn('nothing but the initial pose', row['reason'])
+
+    def test_it_refuses_rivals_and_names_them(self):
+        server = self.localization()
+        self.publisher(f'{server.namespace}/robot/map', PointCloud2, latch=True)
+        self.assert_fails(self.bridge(server), 'another node does what the bridge does',
+                          f'{rospy.get_name()} publishes {server.namespace}/robot/map')
+
+    def test_it_refuses_a_rival_on_tf(self):
+        server = self.localization(run='tf')
+        self.answering(server)
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform(link('trunk', 'rival_base', np.eye(4), rospy.Time.now()))
+        self.assert_fails(self.bridge(server, base_frame='rival_base'),
+                          f'{rospy.get_name()} publishes the tf frame rival_base')
+
+    def test_it_lists_its_mistakes(self):
+        server = self.localization()
+        bridge = self.bridge(server, settle='soon', scan_period=0.001, map_file='/nowhere/map.pcd', colour='red')
+        self.assert_fails(bridge, '4 mistakes', '~settle: found `soon`', '~scan_period: found',
+                          '/nowhere', '~colour')
+
+
+if __name__ == '__main__':
+    rospy.init_node('bridge_behaviour_test')
+    rostest.rosrun('pcrb_launch', 'bridge_behaviour', BridgeBehaviourTest)

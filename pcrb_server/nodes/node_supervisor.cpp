@@ -1,0 +1,26 @@
+#include "supervisor/node_supervisor.hpp"
+
+#include "pcrb_server/node_main.hpp"
+
+namespace {
+
+const pcrb::NodeHelp kHelp{"node_supervisor",
+                           "Runs a launch file as a child and starts it anew when it dies or when "
+                           "localization_bridge asks for that.",
+                           R"(Private parameters (default):
+  launch            the launch file, or its package and its name, separated by a blank
+  args ('')         its arguments, name:=value, separated by blanks
+  autostart (true)  false: start it only when asked for it
+
+Service: ~restart (std_srvs/Trigger) ends the child and all that it started (SIGINT, 5 s later SIGTERM,
+2 s later SIGKILL), then starts it. A child that ends by itself is started anew; one that does so within
+10 s three times in a row is an error. It runs outside the supervisor's namespace.)"};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownNotice& shutdown) {
+    pcrb::NodeSupervisor(pcrb::readSupervisorParameters(), shutdown).run();
+    return 0;
+  });
+}

@@ -1,0 +1,104 @@
+#include "supervisor/node_supervisor.hpp"
+
+#include <iostream>
+#include <thread>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_server/node_parameters.hpp"
+
+namespace pcrb {
+
+namespace {
+
+constexpr auto kPollPeriod = std::chrono::milliseconds(50);
+constexpr auto kEarly = std::chrono::seconds(10);  // a death that soon after the start is early
+constexpr int kMaxEarlyDeaths = 3;
+
+}  // namespace
+
+SupervisorParameters readSupervisorParameters() {
+  NodeParameters reader;
+  SupervisorParameters parameters;
+  parameters.command = {"roslaunch", "--wait"};
+  const auto launch = reader.words("launch", "");
+  if (launch.empty() || launch.size() > 2) {
+    reader.addMistake("~launch: expected a launch file, or a package and its launch file");
+  }
+  for (const auto& words : {launch, reader.words("args", "")}) {
+    parameters.command.insert(parameters.command.end(), words.begin(), words.end());
+  }
+  parameters.autostart = reader.boolean("autostart", true);
+  reader.finish();
+  return parameters;
+}
+
+NodeSupervisor::NodeSupervisor(const SupervisorParameters& parameters, ShutdownNotice& shutdown)
+    : command_(parameters.command), shutdown_(shutdown), is_wanted_(parameters.autostart) {
+  service_ = offerTrigger(node_, "restart", [this] { return restart(); });
+  shutdown_.onShutdown([this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_over_ = true;
+    changed_.notify_all();
+  });
+  spinner_.start();
+}
+
+/// In the service's thread: hands the request to run() and waits until it has been met.
+TriggerAnswer NodeSupervisor::restart() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  is_requested_ = true;
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return !is_requested_ || is_over_; });
+  if (is_over_) return {false, "the supervisor ends"};
+  return {true, "started anew"};
+}
+
+void NodeSupervisor::start() {
+  started_ = std::chrono::steady_clock::now();
+  command_.start();
+}
+
+void NodeSupervisor::answerRequest() {
+  command_.stop();
+  start();
+  is_wanted_ = true;
+  early_deaths_ = 0;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_requested_ = false;
+  changed_.notify_all();
+}
+
+void NodeSupervisor::keepAlive() {
+  if (!is_wanted_ || command_.isRunning()) return;
+  const bool is_first = started_ == std::chrono::steady_clock::time_point();
+  const bool is_early = std::chrono::steady_clock::now() - started_ < kEarly;
+  early_deaths_ = is_early && !is_first ? early_deaths_ + 1 : 0;
+  if (early_deaths_ >= kMaxEarlyDeaths) {
+    throw Error("the node under test ended " + std::to_string(early_deaths_) +
+                " times as soon as it was started: see what it printed");
+  }
+  if (!is_first) std::cout << "the node under test has ended: it is started anew" << std::endl;
+  command_.stop();  // what it left behind
+  start();
+}
+
+void NodeSupervisor::run() {
+  const auto is_due = [this] { return is_requested_ || is_over_; };
+  while (true) {
+    bool is_requested = false;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait_for(lock, kPollPeriod, is_due);
+      if (is_over_) break;
+      is_requested = is_requested_;
+    }
+    if (is_requested) {
+      answerRequest();
+    } else {
+      keepAlive();
+    }
+  }
+  command_.stop();
+}
+
+}  // namespace pcrb

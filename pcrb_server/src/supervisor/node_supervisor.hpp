@@ -1,0 +1,58 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <ros/spinner.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+
+#include "pcrb_server/node_main.hpp"
+#include "supervisor/supervised_command.hpp"
+#include "trigger_service.hpp"
+
+namespace pcrb {
+
+/// Parameters of `node_supervisor`; its --help says what each means.
+struct SupervisorParameters {
+  std::vector<std::string> command;  ///< roslaunch with its arguments
+  bool autostart = true;
+};
+
+/// @throws InvalidParameter  listing every mistake.
+SupervisorParameters readSupervisorParameters();
+
+/// Runs a user's launch file as a child, and starts it anew when it dies or somebody asks for that.
+class NodeSupervisor {
+ public:
+  NodeSupervisor(const SupervisorParameters& parameters, ShutdownNotice& shutdown);
+
+  /// Until the shutdown; ends the child.
+  /// @throws Error  if the child keeps dying as soon as it is started.
+  void run();
+
+ private:
+  TriggerAnswer restart();
+  void answerRequest();
+  void keepAlive();
+  void start();
+
+  SupervisedCommand command_;
+  ShutdownNotice& shutdown_;
+  bool is_wanted_;        ///< whether the child should run
+  int early_deaths_ = 0;  ///< in a row
+  std::chrono::steady_clock::time_point started_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_requested_ = false;
+  bool is_over_ = false;
+
+  ros::NodeHandle node_{"~"};
+  ros::ServiceServer service_;
+  ros::AsyncSpinner spinner_{1};
+};
+
+}  // namespace pcrb
