@@ -14,6 +14,13 @@ constexpr auto kPollPeriod = std::chrono::milliseconds(50);
 constexpr auto kEarly = std::chrono::seconds(10);  // a death that soon after the start is early
 constexpr int kMaxEarlyDeaths = 3;
 
+/// name:=value of name=value: roslaunch takes an argument that has := in its value for none.
+std::string launchArgument(std::string word) {
+  const std::size_t equals = word.find('=');
+  const bool is_plain = equals != std::string::npos && equals > 0 && word[equals - 1] != ':';
+  return is_plain ? word.replace(equals, 1, ":=") : word;
+}
+
 }  // namespace
 
 SupervisorParameters readSupervisorParameters() {
@@ -24,8 +31,12 @@ SupervisorParameters readSupervisorParameters() {
   if (launch.empty() || launch.size() > 2) {
     reader.addMistake("~launch: expected a launch file, or a package and its launch file");
   }
-  for (const auto& words : {launch, reader.words("args", "")}) {
-    parameters.command.insert(parameters.command.end(), words.begin(), words.end());
+  parameters.command.insert(parameters.command.end(), launch.begin(), launch.end());
+  for (const auto& word : reader.words("args", "")) {
+    parameters.command.push_back(launchArgument(word));
+    if (word.find('=') == std::string::npos) {
+      reader.addMistake("~args: found `" + word + "`, expected name=value");
+    }
   }
   parameters.autostart = reader.boolean("autostart", true);
   reader.finish();
