@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""localization.launch with a node that dies, or is started anew on purpose."""
+import os
+import signal
+import sys
+import xmlrpc.client
+
+import rosgraph
+import rospy
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from pcrb_testing import Launch, rows, wait_until
+from pcrb_testing_bridge import BridgeTestCase
+
+NODE = '/ndt_localizer'
+
+
+def node_process():
+    """The process id of the node under test, None while it is not there."""
+    try:
+        return xmlrpc.client.ServerProxy(rosgraph.Master('/test').lookupNode(NODE)).getPid('/test')[2]
+    except (rosgraph.MasterException, OSError):
+        return None
+
+
+class SupervisorTest(BridgeTestCase):
+
+    def launch(self, **arguments):
+        defaults = {'root': self.data.root, 'run': self.path('run'), 'sequences': 'hall', 'time_limit': 2.0,
+                    'node_launch': 'localization_standins ndt_localizer.launch',
+                    'node_args': 'map_topic=/points_map scan_topic=/points_raw', 'map_topic': '/points_map',
+                    'scan_topic': '/points_raw', 'pose_topic': '/ndt_pose', 'settle': 'first'}
+        return self.start(Launch('localization.launch', **{**defaults, **arguments}))
+
+    def rows_at_least(self, count):
+        return wait_until(lambda: len(rows(self.path('run'))) >= count and rows(self.path('run')), f'{count} results')
+
+    def assert_finished(self, launch, least_replied):
+        launch.wait()
+        self.assert_rows_of(self.path('run'), self.data.of('local', 'hall'))
+        outcomes = [row['outcome'] for row in rows(self.path('run'))]
+        self.assertGreaterEqual(outcomes.count('replied'), least_replied, rows(self.path('run')))
+
+    def disturbed(self, number):
+        """A run whose node gets a signal after its first result; ended well, with at most two problems lost."""
+        launch = self.launch()
+        self.rows_at_least(1)
+        os.kill(wait_until(node_process, 'the node is there'), number)
+        self.assert_finished(launch, len(self.data.of('local', 'hall')) - 2)
+        return launch
+
+    def test_a_node_that_dies_is_started_anew(self):
+        self.assertIn('it is started anew', self.disturbed(signal.SIGKILL).output())
+
+    def test_a_node_may_be_started_anew_for_each_target(self):
+        launch = self.launch(restart='target')
+        seen = set()
+        wait_until(lambda: seen.add(node_process()) or launch.ended(), 'the run ends')
+        self.assert_finished(launch, len(self.data.of('local', 'hall')))
+        self.assertGreaterEqual(len(seen - {None}), 2)
+
+
+if __name__ == '__main__':
+    rospy.init_node('supervisor_test')
+    rostest.rosrun('pcrb_launch', 'supervisor', SupervisorTest)
