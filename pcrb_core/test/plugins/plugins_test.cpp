@@ -18,14 +18,14 @@ std::string refusalOf(const std::string& path) {
 }
 
 TEST(RegistrationLibrary, MakesAUsersMethodKnownByItsName) {
-  const std::vector<std::string> expected{"centroids_together"};
-  EXPECT_THROW(makeRegistration("centroids_together", {}), InvalidParameter);
-  EXPECT_EQ(loadRegistrationLibrary(PCRB_TEST_USER_METHOD), expected);
-  EXPECT_EQ(loadRegistrationLibrary(PCRB_TEST_USER_METHOD), expected) << "a second time";
+  const std::vector<std::string> expected{"my_method"};
+  EXPECT_THROW(makeRegistration("my_method", {}), InvalidParameter);
+  EXPECT_EQ(loadRegistrationLibrary(PCRB_TEST_MY_METHOD), expected);
+  EXPECT_EQ(loadRegistrationLibrary(PCRB_TEST_MY_METHOD), expected) << "a second time";
   const auto names = registrationMethods();
-  EXPECT_EQ(std::count(names.begin(), names.end(), "centroids_together"), 1);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "my_method"), 1);
 
-  const auto method = makeRegistration("centroids_together", {{"lift", "0.5"}});
+  const auto method = makeRegistration("my_method", {{"lift", "0.5"}});
   const Transform P(Eigen::Translation3d(1.0, 2.0, 3.0));
   method->setTarget(pcrb_test::shared(pcrb_test::hall(1)));
   const auto result =
@@ -36,10 +36,10 @@ TEST(RegistrationLibrary, MakesAUsersMethodKnownByItsName) {
 }
 
 TEST(RegistrationLibrary, HasItsParametersAndCloudsCheckedLikeAnyMethod) {
-  loadRegistrationLibrary(PCRB_TEST_USER_METHOD);
-  EXPECT_THROW(makeRegistration("centroids_together", {{"lift", "11"}}), InvalidParameter);
-  EXPECT_THROW(makeRegistration("centroids_together", {{"lfit", "1"}}), InvalidParameter);
-  const auto method = makeRegistration("centroids_together", {});
+  loadRegistrationLibrary(PCRB_TEST_MY_METHOD);
+  EXPECT_THROW(makeRegistration("my_method", {{"lift", "11"}}), InvalidParameter);
+  EXPECT_THROW(makeRegistration("my_method", {{"lfit", "1"}}), InvalidParameter);
+  const auto method = makeRegistration("my_method", {});
   EXPECT_THROW(method->align(pcrb_test::hall(1), Transform::Identity()), InvalidProblem);
   EXPECT_THROW(method->setTarget(pcrb_test::shared({})), InvalidProblem);
 }

@@ -1,14 +1,12 @@
-// A method of a user's own, as it stands in a package of theirs.
-
 #include "pcrb_core/registration/registry.hpp"
 
 namespace {
 
-/// Puts the source's centroid on the target's and adds `lift`.
-class CentroidsTogether : public pcrb::Registration {
+// Puts the source's centroid on the target's, and `lift` m higher.
+class MyMethod : public pcrb::Registration {
  public:
-  explicit CentroidsTogether(pcrb::ParameterReader& reader)
-      : lift_(reader.number("lift", 0.0, 0.0, 10.0)) {}  // m
+  explicit MyMethod(pcrb::ParameterReader& reader)
+      : lift_(reader.number("lift", 0.0, 0.0, 10.0)) {}  // default, least, most
 
  protected:
   void prepareTarget(const pcrb::PointCloud& target) override {
@@ -31,6 +29,6 @@ class CentroidsTogether : public pcrb::Registration {
   Eigen::Vector3d target_centroid_ = Eigen::Vector3d::Zero();
 };
 
-PCRB_REGISTER_METHOD("centroids_together", CentroidsTogether)
+PCRB_REGISTER_METHOD("my_method", MyMethod)
 
 }  // namespace
