@@ -4,9 +4,11 @@ import pwd
 import shutil
 import socket
 import subprocess
+import time
 
 from pcrb_testing_wait import wait_until
 
+REVOCATION = 3.0  # s
 PROGRAMS = ('munged', 'munge', 'slurmctld', 'slurmd', 'sbatch', 'squeue', 'scontrol', 'sinfo')
 
 CONFIGURATION = '''
@@ -63,6 +65,7 @@ class Cluster:
     def __init__(self, test, child):
         """child: the class for processes, pcrb_testing.Child."""
         self.folder = test.path('slurm')
+        self._waiting_since = {}
         for name in '', 'state', 'spool':
             os.makedirs(os.path.join(self.folder, name), exist_ok=True)
         self._write_files()
@@ -116,7 +119,12 @@ class Cluster:
         return {name: (state, reason, self.path(f'spool/job{int(number):05}')) for name, number, state, reason in fields}
 
     def skip_requeue_delay(self):
-        """Slurm gives a requeued job two minutes to end before it starts again: this lets it start once it has."""
-        for job, (state, reason, folder) in self.queue().items():
-            if state == 'PENDING' and reason == 'BeginTime' and not os.path.exists(folder):
+        """Slurm gives a requeued job two minutes to end before it starts again: this lets it start some seconds after it
+        has. Sooner, the node may refuse it, since it has just revoked that job's credential, in whole seconds."""
+        waiting = [job for job, (state, reason, folder) in self.queue().items()
+                   if state == 'PENDING' and reason == 'BeginTime' and not os.path.exists(folder)]
+        now = time.monotonic()
+        self._waiting_since = {job: self._waiting_since.get(job, now) for job in waiting}
+        for job, since in self._waiting_since.items():
+            if now - since > REVOCATION:
                 self.call('scontrol', 'update', f'JobId={job}', 'StartTime=now')
