@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""localization.launch with a node that dies, or is started anew on purpose."""
+"""localization.launch with a node that dies, hangs, or is started anew on purpose."""
 import os
 import signal
 import sys
@@ -53,12 +53,23 @@ class SupervisorTest(BridgeTestCase):
     def test_a_node_that_dies_is_started_anew(self):
         self.assertIn('it is started anew', self.disturbed(signal.SIGKILL).output())
 
+    def test_a_node_that_hangs_is_started_anew(self):
+        self.assertIn('the node under test hangs', self.disturbed(signal.SIGSTOP).output())
+
     def test_a_node_may_be_started_anew_for_each_target(self):
         launch = self.launch(restart='target')
         seen = set()
         wait_until(lambda: seen.add(node_process()) or launch.ended(), 'the run ends')
         self.assert_finished(launch, len(self.data.of('local', 'hall')))
         self.assertGreaterEqual(len(seen - {None}), 2)
+
+    def test_a_launch_file_that_fails_at_once_ends_the_whole_launch(self):
+        """roslaunch lets arguments pass that a file does not have, so it takes a file that is not there."""
+        launch = self.launch(node_launch='localization_standins no_such.launch', node_args='')
+        launch.wait()
+        self.assertEqual(launch.output().count('no_such.launch] is neither'), 3, launch.output())
+        self.assertIn('ended 3 times as soon as it was started', launch.output())
+        self.assertEqual(rows(self.path('run')), [])
 
 
 if __name__ == '__main__':

@@ -54,6 +54,14 @@ NodeSupervisor::NodeSupervisor(const SupervisorParameters& parameters, ShutdownN
   spinner_.start();
 }
 
+/// A request that waits for run() would keep the spinner's thread for ever.
+NodeSupervisor::~NodeSupervisor() {
+  shutdown_.forget();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_over_ = true;
+  changed_.notify_all();
+}
+
 /// In the service's thread: hands the request to run() and waits until it has been met.
 TriggerAnswer NodeSupervisor::restart() {
   std::unique_lock<std::mutex> lock(mutex_);

@@ -28,6 +28,7 @@ SupervisorParameters readSupervisorParameters();
 class NodeSupervisor {
  public:
   NodeSupervisor(const SupervisorParameters& parameters, ShutdownNotice& shutdown);
+  ~NodeSupervisor();
 
   /// Until the shutdown; ends the child.
   /// @throws Error  if the child keeps dying as soon as it is started.
