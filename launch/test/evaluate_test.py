@@ -80,6 +80,16 @@ class EvaluateTest(TestCase):
         self.assert_fails_with(self.rostest(kind='both', min_replied=2), r'~min_replied: found `2`')
         self.assert_fails_with(self.rostest(kind='both', max_median='attic=1'), 'not in this run: attic')
 
+    def test_judges_a_localization_node_as_it_is(self):
+        data = maths.make_data_set(self.path('rooms'), points=1000)
+        node = {'node_launch': 'localization_standins ndt_localizer.launch', 'settle': 'first',
+                'node_args': 'map_topic=/points_map scan_topic=/points_raw', 'map_topic': '/points_map',
+                'scan_topic': '/points_raw', 'pose_topic': '/ndt_pose'}
+        self.assert_ends_well(self.rostest(root=data.root, sequences='hall', subset=2, **node))
+        self.assertEqual(self.report().properties('total local')['replied'], '2')
+        for row in rows(self.path('run')):
+            self.assertLess(row['error'], row['initial_misalignment'])
+
     def test_fails_where_too_few_replies_were_valid(self):
         """A thousandth of a second is too short for this method."""
         test = self.rostest(sequences='hall', subset=1, method='ransac', time_limit=0.001)
