@@ -29,13 +29,13 @@ def rviz_configuration(name):
 
 
 def roles(name):
-    """Background, and the colour of each topic that a configuration shows; axes have none of their own."""
+    """Background, and the colour of each topic that a configuration shows; axes have none of their own, arrows shades."""
     with open(rviz_configuration(name)) as file:
         manager = yaml.safe_load(file)['Visualization Manager']
     topics = {}
     for display in manager['Displays']:
         topic = display.get('Topic') or display.get('Marker Topic')
-        if topic and display['Class'] != 'rviz/Pose':
+        if topic and not display['Class'].startswith('rviz/Pose'):
             topics[topic] = color(display['Color']) if 'Color' in display else WHITE
     return color(manager['Global Options']['Background Color']), topics
 
@@ -78,8 +78,8 @@ class LookTest(TestCase):
             for topic, role_color in hidden.items():
                 self.assertEqual(count(picture, role_color), 0, f'{topic} is off')
 
-    def run_of_guesses(self):
-        server = self.server(self.data, sequences='hall')
+    def run_of_guesses(self, **parameters):
+        server = self.server(self.data, sequences='hall', **parameters)
         self.client(server).serve(server)
         self.assert_ends_well(server)
 
@@ -91,6 +91,11 @@ class LookTest(TestCase):
         self.run_of_guesses()
         self.replay(run=self.path('run'))
         self.assert_shows_every_role('benchmark')
+
+    def test_a_localization_node(self):
+        self.run_of_guesses(presentation='localization')
+        self.replay(run=self.path('run'))
+        self.assert_shows_every_role('localization')
 
     def test_problems_and_what_became_of_them(self):
         self.run_of_guesses()

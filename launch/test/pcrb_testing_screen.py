@@ -54,7 +54,7 @@ def count(picture, color):
     return int((picture == color).all(axis=2).sum())
 
 
-def wait_for_colors(screen, background, colors, at_least=20):
+def wait_for_colors(screen, background, colors, at_least=10):
     """The part of the screen with that background, once it shows all the colours."""
     def shown():
         picture = inside(screen.picture(), background)
