@@ -10,7 +10,7 @@ import tf2_ros
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, PointCloud2
-from std_srvs.srv import Empty
+from std_srvs.srv import Empty, Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
@@ -140,6 +140,26 @@ class BridgeBehaviourTest(BridgeTestCase):
         self.assertTrue(all(odom.pose.pose.position.x == 0 for odom in odometry))
         with open(map_file) as file:
             self.assertIn('DATA ascii', file.read())
+
+    def test_a_global_problem_has_no_initial_pose_but_a_call_that_is_made_until_it_succeeds(self):
+        server = self.localization(kind='global')
+        robot = self.answering(server)
+        believed = PoseWithCovarianceStamped()
+        believed.pose.pose.orientation.w = 1.0
+        calls = []
+
+        def localize_globally(_):
+            calls.append(len(robot.scans))
+            robot.initial = believed
+            return len(calls) > 1, 'the first one is in vain'
+
+        service = rospy.Service(f'{server.namespace}/localize', Trigger, localize_globally)
+        self.addCleanup(service.shutdown)
+        rows = self.scores(server, send_initialpose=False, before_problem=f'{server.namespace}/localize')
+        self.assertIs(robot.initial, believed)
+        self.assertEqual(len(calls), len(rows) + 1)
+        self.assertEqual(calls[:2], [0, 0])
+        self.assertEqual(len(set(calls)), len(rows))
 
     def test_a_silent_node_times_out_with_the_reason(self):
         server = self.localization(time_limit=1.0, sequences='kitchen', subset=1)

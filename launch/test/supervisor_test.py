@@ -56,12 +56,21 @@ class SupervisorTest(BridgeTestCase):
     def test_a_node_that_hangs_is_started_anew(self):
         self.assertIn('the node under test hangs', self.disturbed(signal.SIGSTOP).output())
 
-    def test_a_node_may_be_started_anew_for_each_target(self):
-        launch = self.launch(restart='target')
+    def processes(self, launch):
+        """The processes that the node under test was, until the run has ended."""
         seen = set()
         wait_until(lambda: seen.add(node_process()) or launch.ended(), 'the run ends')
+        return seen - {None}
+
+    def test_a_node_may_be_started_anew_for_each_target(self):
+        launch = self.launch(restart='target')
+        self.assertGreaterEqual(len(self.processes(launch)), 2)
         self.assert_finished(launch, len(self.data.of('local', 'hall')))
-        self.assertGreaterEqual(len(seen - {None}), 2)
+
+    def test_a_node_may_be_started_anew_for_each_problem(self):
+        launch = self.launch(restart='problem', subset=3)
+        self.assertEqual(len(self.processes(launch)), 3)
+        self.assertEqual([row['outcome'] for row in rows(self.path('run'))], ['replied'] * 3)
 
     def test_a_launch_file_that_fails_at_once_ends_the_whole_launch(self):
         """roslaunch lets arguments pass that a file does not have, so it takes a file that is not there."""
