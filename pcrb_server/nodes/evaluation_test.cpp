@@ -12,6 +12,8 @@ const pcrb::NodeHelp kHelp{"evaluation_test",
   min_replied (1)        least fraction of problems with a valid reply, in the same form
   time_limit_total (3600)  s from this node's start to the end of the run
   server (benchmark_server)  name of the server's node
+  clients                names of nodes without which no problem is solved: if one ends before the
+                         run, or does not start, so does this
   run                    folder of the results, to be named in the report
 
 Arguments:

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <iostream>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
@@ -19,6 +21,7 @@ struct Parameters {
   Thresholds thresholds;
   double time_limit_total = 3600.0;
   std::string server;
+  std::vector<std::string> clients;
   std::string run;
 };
 
@@ -37,6 +40,7 @@ Parameters readParameters() {
   parameters.thresholds.min_replied = threshold("min_replied", "1", 1.0);
   parameters.time_limit_total = reader.number("time_limit_total", 3600.0, 0.1, 1e9);
   parameters.server = reader.string("server", "benchmark_server");
+  parameters.clients = reader.words("clients", "");
   parameters.run = reader.string("run", "");
   reader.finish();
   return parameters;
@@ -85,7 +89,7 @@ int runEvaluation(const std::string& file, const ShutdownNotice& shutdown) {
   };
   try {
     parameters = readParameters();
-    RunWatcher watcher(parameters.server);
+    RunWatcher watcher(parameters.server, parameters.clients);
     const auto summary = watcher.wait(parameters.time_limit_total, shutdown);
     return conclude(judge(summary, parameters.thresholds));
   } catch (const Error& error) {

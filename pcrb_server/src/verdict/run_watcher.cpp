@@ -15,8 +15,8 @@ namespace pcrb {
 namespace {
 
 constexpr double kListenPeriod = 0.1;  // s
-constexpr double kLookPeriod = 0.5;    // s between looks for the server
-constexpr double kStartLimit = 30.0;   // s until the server's process has registered
+constexpr double kLookPeriod = 0.5;    // s between looks for the nodes
+constexpr double kStartLimit = 30.0;   // s until a node's process has registered
 constexpr int kAbsences = 3;  // looks in vain, during which the last message of a server arrives
 
 double secondsBetween(std::chrono::steady_clock::time_point from,
@@ -26,7 +26,9 @@ double secondsBetween(std::chrono::steady_clock::time_point from,
 
 }  // namespace
 
-RunWatcher::RunWatcher(const std::string& server) : server_(node_.resolveName(server)) {
+RunWatcher::RunWatcher(const std::string& server, const std::vector<std::string>& clients)
+    : server_(node_.resolveName(server)) {
+  for (const auto& client : clients) clients_.push_back({node_.resolveName(client)});
   ros::master::setRetryTimeout(ros::WallDuration(5.0));
   summary_subscriber_ = node_.subscribe<pcrb_msgs::Summary>(
       topics::kSummary, 1,
@@ -50,26 +52,45 @@ RunWatcher::Server RunWatcher::lookForServer() const {
 }
 
 bool RunWatcher::hasServerEnded() {
-  const auto now = Clock::now();
-  if (secondsBetween(looked_, now) < kLookPeriod) return false;
-  looked_ = now;
   const Server found = lookForServer();
   absences_ = found < seen_ ? absences_ + 1 : 0;
   seen_ = std::max(seen_, found);
   return absences_ >= kAbsences;
 }
 
+void RunWatcher::lookForClients(double waited) {
+  ros::V_string nodes;
+  if (clients_.empty() || !ros::master::getNodes(nodes)) return;
+  for (auto& client : clients_) {
+    const bool is_there = std::find(nodes.begin(), nodes.end(), client.name) != nodes.end();
+    client.is_seen |= is_there;
+    client.absences = is_there ? 0 : client.absences + 1;
+    if (client.is_seen && client.absences >= kAbsences) {
+      fail(client.name + " gave up: see what it printed");
+    }
+    if (!client.is_seen && waited > kStartLimit) {
+      fail(client.name + " did not start: see what it printed");
+    }
+  }
+}
+
+void RunWatcher::look(double waited) {
+  looked_ = Clock::now();
+  if (hasServerEnded()) fail(server_ + " died or gave up: see what it printed");
+  if (seen_ == Server::kAbsent && waited > kStartLimit) {
+    fail(server_ + " did not start: see what it printed");
+  }
+  lookForClients(waited);
+}
+
 pcrb_msgs::Summary RunWatcher::wait(double limit, const ShutdownNotice& shutdown) {
   const auto start = Clock::now();
   while (!summary_) {
     listen();
-    const double waited = secondsBetween(start, Clock::now());
     if (summary_) break;
     if (shutdown.requested()) fail("this was ended by a signal");
-    if (hasServerEnded()) fail(server_ + " died or gave up: see what it printed");
-    if (seen_ == Server::kAbsent && waited > kStartLimit) {
-      fail(server_ + " did not start: see what it printed");
-    }
+    const double waited = secondsBetween(start, Clock::now());
+    if (secondsBetween(looked_, Clock::now()) >= kLookPeriod) look(waited);
     if (waited > limit) {
       fail("it was not over within " + formatShortest(limit) + " s (time_limit_total)");
     }

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "pcrb_server/node_main.hpp"
 
@@ -16,28 +17,37 @@ namespace pcrb {
 /// While it lives, the server sees that somebody reads its summary and stays (its ~linger).
 class RunWatcher {
  public:
-  /// @param server  name of the server's node, relative to the namespace.
-  explicit RunWatcher(const std::string& server);
+  /// @param server   name of the server's node, relative to the namespace.
+  /// @param clients  names of nodes without which no problem is solved.
+  RunWatcher(const std::string& server, const std::vector<std::string>& clients);
 
   /// Waits for the summary of a finished run.
   ///
   /// @param limit  s from now.
   /// @throws Error  if there is none: the server did not start or has ended before (SIGKILL
-  ///                included), the limit was reached, a signal came. The message says how far the
-  ///                run was.
+  ///                included), a client did not start or gave up, the limit was reached, a signal
+  ///                came. The message says how far the run was.
   pcrb_msgs::Summary wait(double limit, const ShutdownNotice& shutdown);
 
  private:
   using Clock = std::chrono::steady_clock;
   enum class Server { kAbsent, kRegistered, kServing };
+  struct Client {
+    std::string name;
+    bool is_seen = false;
+    int absences = 0;  ///< looks in a row that did not find it
+  };
 
   void listen();
   Server lookForServer() const;
   bool hasServerEnded();
+  void look(double waited);
+  void lookForClients(double waited);
   [[noreturn]] void fail(const std::string& what) const;
 
   ros::NodeHandle node_;
   std::string server_;
+  std::vector<Client> clients_;
   Server seen_ = Server::kAbsent;  ///< the most that was seen of it
   int absences_ = 0;               ///< looks in a row that found less
   Clock::time_point looked_;
