@@ -87,6 +87,19 @@ def pivot_of(section, scores, comparisons, published):
                'published': [published.get((name, selection['name'])) for name in section['published_columns']]}
 
 
+def published_of(section, rows):
+    """Published medians by method and sequence, of those sequences whose problems may be the published ones.
+
+    The total is one of all published sequences: it stands only beside theirs.
+    """
+    own = set(section['own_problems'])
+    here = {selection['name'] for selection in section['selections']
+            if selection['level'] == 'sequence' and not own & set(selection['sequences'])}
+    if here >= {row['sequence'] for row in rows} - {'total'} and not own:
+        here.add('total')
+    return {(row['method'], row['sequence']): row['median'] for row in rows if row['sequence'] in here}
+
+
 def verdicts_of(comparisons):
     for row in comparisons:
         if row['selection'] == 'total':
@@ -138,7 +151,10 @@ def view(section):
     colors = charts.color_of([method['method'] for method in section['methods']])
     scores = charts.rows_of(present['scores'])
     comparisons = charts.rows_of(present['comparisons']) if 'comparisons' in present else []
-    published = {(row['method'], row['sequence']): row['median'] for row in charts.rows_of(present['published'])}
+    published = published_of(section, charts.rows_of(present['published']))
+    section['has_groups'] = any(selection['level'] == 'group' for selection in section['selections'])
+    section['own_sequences'] = [s['name'] for s in section['selections']
+                                if s['level'] == 'sequence' and set(s['sequences']) & set(section['own_problems'])]
     section['published_columns'] = [m for m in colors if any(method == m for method, _ in published)]
     floors = {row['sequence']: row['floor'] for row in charts.rows_of(present['ground_truth'])
               if row['floor'] is not None} if 'ground_truth' in present else {}

@@ -95,7 +95,16 @@ class Preparation {
   bool hasMap() const { return has(kMapTarget) && fs::exists(mapFile()); }
 
   void convert() {
-    for (const auto& log : logs_) out_ << formatReport(convertLog(log, options_)) << std::flush;
+    for (const auto& log : logs_) {
+      try {
+        out_ << formatReport(convertLog(log, options_)) << std::flush;
+      } catch (const pcrb::InvalidFile& error) {
+        throw pcrb::InvalidFile(log.data_set + "/" + log.sequence,
+                                std::string(error.what()) +
+                                    "; mend this log, or name the sequences to prepare without it, "
+                                    "and run again: what is complete is kept");
+      }
+    }
   }
 
   void buildMap() {

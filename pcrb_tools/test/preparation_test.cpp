@@ -191,9 +191,12 @@ TEST_F(Preparation, AFailedCheckIsAFailure) {
   EXPECT_NE(text_.find("gone.pcd"), std::string::npos) << text_;
 }
 
-TEST_F(Preparation, ADefectiveLogStopsItWithFileAndLine) {
+TEST_F(Preparation, ADefectiveLogStopsItWithSequenceFileAndLineAndAWayOn) {
   pcrb_test::writeFile(folder_.file("logs/planetary/p2at_met/p2at_met_003.gt"), "1 0 0\n");
-  PCRB_EXPECT_ERROR(pcrb::InvalidFile, prepare(), "p2at_met_003.gt:1: ");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, prepare(), "planetary/p2at_met: ", "p2at_met_003.gt:1: ",
+                    "name the sequences to prepare without it");
+  options_.sequences = {"box_met"};
+  EXPECT_TRUE(prepare());
 }
 
 TEST_F(Preparation, ASequenceWithoutALogIsAMistake) {

@@ -282,6 +282,22 @@ TEST_F(ReportTest, PageIsOneFileThatAsksForNothingElse) {
   EXPECT_NE(page.find("name=\"viewport\""), std::string::npos);
 }
 
+TEST_F(ReportTest, PublishedFiguresStandOnlyBesideProblemsThatNoToolDrew) {
+  options_.runs = {"gicp=" + addRun("run", 0.1)};
+  runReportTool(options_);
+  EXPECT_NE(read(options_.output + "/index.html").find("<th>gicp, published</th>"),
+            std::string::npos);
+
+  pcrb::ResultsStore(folder_.file("run"), pcrb::ResultsStore::Access::kReadWrite)
+      .updateRunInfo("drawn_by eth/plain_local.txt", "sample_problems");
+  runReportTool(options_);
+  const std::string page = read(options_.output + "/index.html");
+  EXPECT_EQ(page.find("<th>gicp, published</th>"), std::string::npos);
+  EXPECT_NE(page.find("No published figures stand beside plain"), std::string::npos);
+  EXPECT_NE(read(options_.output + "/report.md").find("other ones than the published ones"),
+            std::string::npos);
+}
+
 TEST_F(ReportTest, PageOpensInABrowserAndShowsItsNumbersOnHover) {
   if (!fs::exists("/usr/bin/chromium")) GTEST_SKIP() << "chromium is not installed";
   options_.runs = {addRun("good", 0.1), addRun("bad", 0.2, 5)};

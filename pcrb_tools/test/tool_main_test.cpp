@@ -63,5 +63,19 @@ TEST(ToolMain, UnknownOptionIsOneLineAndStatusTwo) {
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
+TEST(ToolMain, ChoiceTakesItsWordsAndNamesThemToWhoeverGivesAnother) {
+  CLI::App app("Chooses.");
+  int value = 0;
+  addChoice<int>(app, "--size", value, {{"small", 1}, {"large", 2}}, "of it");
+  app.parse("--size large");
+  EXPECT_EQ(value, 2);
+  try {
+    app.parse("--size 1");
+    FAIL() << "took a value for a word";
+  } catch (const CLI::ValidationError& error) {
+    EXPECT_STREQ(error.what(), "--size: 1 not in {large,small}");
+  }
+}
+
 }  // namespace
 }  // namespace pcrb_tools

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   app.add_option("folder", options.folder, "<root>/<data set>/<sequence>, a folder of .pcd files")
       ->required();
   app.add_option("-o,--output", options.output, "the matrix [<folder>_overlap.txt]");
-  app.add_option("--distance", options.distance, "m [the data set's]");
+  app.add_option("--distance", options.distance, "m [the data set's]")->check(CLI::PositiveNumber);
   app.add_option("--window", options.window,
                  "only pairs at most this many places apart; memory then depends on it, not on the "
                  "length of the sequence [0 = all pairs]");

@@ -11,7 +11,9 @@ int main(int argc, char** argv) {
       "Simulates short logs in the original formats of the four data sets, by ray casting: "
       "something to try everything on before the real logs are there."};
   app.add_option("--output", request.output, "Folder for the logs, new or empty")->required();
-  app.add_option("--seed", request.seed, "Same seed, same bytes")->capture_default_str();
+  app.add_option("--seed", request.seed, "Same seed, same bytes")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--size", request.size, "small (seconds), medium, or large (the sensors' density)")
       ->check(CLI::IsMember({"small", "medium", "large"}))
       ->capture_default_str();

@@ -1,5 +1,4 @@
 #include <iostream>
-#include <map>
 
 #include "pcrb_core/parallel.hpp"
 #include "pcrb_tools/preparation.hpp"
@@ -20,18 +19,21 @@ int main(int argc, char** argv) {
                  "data sets, sequences, or <data set>/<sequence> [all]");
   app.add_option("--logs", options.logs, "folder of the original logs")->required();
   app.add_option("--root", options.root, "root of the common layout")->required();
-  app.add_option("--until", options.last, "last stage: convert, map, overlap, problems, check")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, pcrb_tools::PrepareStage>{
-          {"convert", pcrb_tools::PrepareStage::kConvert},
-          {"map", pcrb_tools::PrepareStage::kMap},
-          {"overlap", pcrb_tools::PrepareStage::kOverlap},
-          {"problems", pcrb_tools::PrepareStage::kProblems},
-          {"check", pcrb_tools::PrepareStage::kCheck}}));
-  app.add_option("--seed", options.seed, "of the problems")->capture_default_str();
-  app.add_option("--bounds", options.bounds,
-                 "of perturbations: measured in the published problem files, or upstream's note")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, pcrb::BoundsSource>{
-          {"measured", pcrb::BoundsSource::kMeasured}, {"note", pcrb::BoundsSource::kNote}}));
+  pcrb_tools::addChoice<pcrb_tools::PrepareStage>(
+      app, "--until", options.last,
+      {{"convert", pcrb_tools::PrepareStage::kConvert},
+       {"map", pcrb_tools::PrepareStage::kMap},
+       {"overlap", pcrb_tools::PrepareStage::kOverlap},
+       {"problems", pcrb_tools::PrepareStage::kProblems},
+       {"check", pcrb_tools::PrepareStage::kCheck}},
+      "last stage [check]");
+  app.add_option("--seed", options.seed, "of the problems")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  pcrb_tools::addChoice<pcrb::BoundsSource>(
+      app, "--bounds", options.bounds,
+      {{"measured", pcrb::BoundsSource::kMeasured}, {"note", pcrb::BoundsSource::kNote}},
+      "of perturbations: measured in the published problem files, or upstream's note [measured]");
   app.add_option("--kaist-max-rate", options.kaist_max_rate, "Hz; 0 = all scans")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -32,7 +32,9 @@ int main(int argc, char** argv) {
   app.add_option("--resamples", options.resamples, "of the bootstrap")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "of the bootstrap")->capture_default_str();
+  app.add_option("--seed", options.seed, "of the bootstrap")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_flag("!--no-components", options.with_components,
                "no errors along each axis, for which all clouds of a run are read");
   app.add_flag("!--no-figures", options.draw_figures, "no PNG and PDF figures, the page only");

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--overlap", options.overlap, "the overlap matrix [<folder>_overlap.txt]");
   app.add_option("--kind", kind, "local, global or both [both]")->check(CLI::IsMember(kinds));
-  app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--seed", options.seed)->check(CLI::NonNegativeNumber)->capture_default_str();
   app.add_option("--bounds", bounds_name,
                  "perturbation bounds of the four published data sets: those measured in the "
                  "published problem files, or those of upstream's note [measured]")

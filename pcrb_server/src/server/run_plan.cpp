@@ -6,6 +6,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_hash.hpp"
 #include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem_origin.hpp"
 #include "pcrb_core/problem/selection.hpp"
 
 namespace pcrb {
@@ -107,8 +108,10 @@ RunPlan makeRunPlan(const ServerParameters& parameters) {
     }
     addProblems(files, data_set, plan.problems);
     const std::filesystem::path path(files.problem_file);
-    plan.problem_files[files.data_set + "/" + path.filename().string()] =
-        fileHash(files.problem_file);
+    const std::string name = files.data_set + "/" + path.filename().string();
+    const std::string hash = plan.problem_files[name] = fileHash(files.problem_file);
+    const std::string tool = toolThatDrew(files.problem_file, hash);
+    if (!tool.empty()) plan.drawn_by[name] = tool;
   }
   plan.problems = select(plan.problems, parameters);
   if (plan.problems.empty()) {

@@ -32,6 +32,7 @@ struct PlannedProblem {
 struct RunPlan {
   std::vector<PlannedProblem> problems;              ///< in the order of the problem files
   std::map<std::string, std::string> problem_files;  ///< `<data set>/<file>` → hash
+  std::map<std::string, std::string> drawn_by;       ///< of those that a tool drew: its name
 };
 
 /// Whether a word of a selection names a sequence: `all`, the sequence, its data set, or

@@ -50,6 +50,7 @@ RunRecord::RunRecord(const ServerParameters& parameters, const RunPlan& plan,
     info_["root"] = parameters.root;
     info_["created"] = formatShortest(now());
     info_["problems"] = std::to_string(plan.problems.size());
+    for (const auto& [name, tool] : plan.drawn_by) info_["drawn_by " + name] = tool;
     store_.setRunInfo(info_);
   } else {
     requireSame(info_, expected);

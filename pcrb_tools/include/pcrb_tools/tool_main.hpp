@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <map>
+#include <string>
 
 namespace pcrb_tools {
 
@@ -11,6 +13,16 @@ enum ExitStatus : int {
   kFailure = 1,    ///< something is wrong with the data, the disk or the network
   kUsageError = 2  ///< something is wrong with the command line
 };
+
+/// Adds an option whose argument is one of some words, each of which stands for a value.
+template <typename Choice, typename Value>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
+                       const std::map<std::string, Choice>& choices,
+                       const std::string& description) {
+  const auto choose = [&value, choices](const std::string& word) { value = choices.at(word); };
+  return app.add_option_function<std::string>(name, choose, description)
+      ->check(CLI::IsMember(choices));
+}
 
 /// Parses the command line and runs a tool: what every offline tool's main ends with.
 ///

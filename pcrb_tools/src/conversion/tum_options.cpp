@@ -1,9 +1,9 @@
 #include "pcrb_tools/conversion/tum_options.hpp"
 
-#include <map>
 #include <vector>
 
 #include "pcrb_tools/conversion/conversion_main.hpp"
+#include "pcrb_tools/tool_main.hpp"
 
 namespace pcrb_tools {
 
@@ -20,10 +20,10 @@ void addTumOptions(CLI::App& app, TumRequest& request) {
                  "Thin to this rate, Hz; 0 = all (default: 0 for clouds of a bag, 2, as the "
                  "published sequences, for depth images)")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--input", options.input,
-                 "Messages of a bag to convert: auto (clouds if there are any), clouds, depth")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, TumInput>{
-          {"auto", TumInput::kAuto}, {"clouds", TumInput::kClouds}, {"depth", TumInput::kDepth}}));
+  addChoice<TumInput>(
+      app, "--input", options.input,
+      {{"auto", TumInput::kAuto}, {"clouds", TumInput::kClouds}, {"depth", TumInput::kDepth}},
+      "Messages of a bag to convert: auto (clouds if there are any), clouds, depth");
   app.add_option_function<std::vector<double>>(
          "--intrinsics",
          [&options](const std::vector<double>& n) {

@@ -13,7 +13,8 @@ std::size_t publishedPlace(const std::string& sequence);
 std::string publishedDataSet(const std::string& sequence);
 
 /// What a sequence has in common with others, to group results by: environment and structure of the
-/// paper's sequences, sensor and characteristics of its data set (`dataset.yaml` below `root`).
+/// paper's sequences (this suite's own assignment), sensor and characteristics of its data set
+/// (`dataset.yaml` below `root`).
 ///
 /// @param root  empty = only what is built in.
 std::vector<std::string> characteristicsOf(const std::string& root, const std::string& data_set,

@@ -71,7 +71,8 @@ Table scoreTable(const Section& section, const ReportOptions& options) {
               "Errors and outcomes",
               "median is the score; low and high are the ends of its 95 % bootstrap interval over "
               "pairs of clouds; stddev has n in the denominator; a problem without a valid reply "
-              "counts with its initial misalignment.",
+              "counts with its initial misalignment. Groups are by characteristics that this suite "
+              "or a dataset.yaml assigns, not by the paper's Tables 2 and 3.",
               {{"method"}, {"selection"}, {"level"}, {"problems", Format::kCount}},
               {}};
   for (std::size_t i = 0; i < 5; ++i) {
@@ -128,6 +129,12 @@ Table publishedTable(const Section& section) {
               {}};
   for (const char* name : {"median", "q75", "q95", "mean", "stddev"}) {
     table.columns.push_back({name, Format::kPublished});
+  }
+  if (!section.own_problems.empty()) {
+    table.note +=
+        " The problems of these sequences were drawn by sample_problems and are other "
+        "ones than the published ones, the data perhaps too, whatever the name: " +
+        namesOfOwnProblems(section) + ".";
   }
   for (const PublishedRow& published : publishedRows()) {
     if (published.kind != section.kind) continue;

@@ -64,6 +64,21 @@ void addTotals(const std::vector<SequenceKey>& sequences, std::vector<Selection>
   selections.push_back(total);
 }
 
+/// Whether the run table says that a tool drew the problems.
+bool isDrawn(const Entry& entry, const SequenceKey& key) {
+  return entry.info.count("drawn_by " + key.first + "/" + key.second + "_" +
+                          pcrb::toString(entry.kind) + ".txt") > 0;
+}
+
+void addOwnProblems(const std::vector<SequenceKey>& sequences, Section& section) {
+  for (const SequenceKey& sequence : sequences) {
+    const bool is_drawn =
+        std::any_of(section.entries.begin(), section.entries.end(),
+                    [&](const Entry* entry) { return isDrawn(*entry, sequence); });
+    if (is_drawn) section.own_problems.insert(sequence);
+  }
+}
+
 void addSelections(const std::string& root, Section& section) {
   using Words = std::vector<std::string>;
   const auto sequences = sequencesOf(section);
@@ -106,6 +121,7 @@ std::vector<Section> makeSections(const std::vector<Entry>& entries, const std::
     }
     if (section.entries.empty()) continue;
     addSelections(root, section);
+    addOwnProblems(sequencesOf(section), section);
     sections.push_back(std::move(section));
   }
   return sections;
@@ -134,6 +150,15 @@ std::vector<std::size_t> unitsOf(const Problems& problems) {
     units.push_back(numbers.emplace(problem->pair, numbers.size()).first->second);
   }
   return units;
+}
+
+std::string namesOfOwnProblems(const Section& section) {
+  std::string names;
+  for (const Selection* selection : section.at({"sequence"})) {
+    if (section.own_problems.count(*selection->sequences.begin()) == 0) continue;
+    names += (names.empty() ? "" : ", ") + selection->name;
+  }
+  return names;
 }
 
 std::string sequenceName(const Section& section, const pcrb::ProblemKey& key) {

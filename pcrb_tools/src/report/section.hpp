@@ -25,6 +25,9 @@ struct Section {
   std::vector<Selection> selections;  ///< sequences, data sets, groups, total
   /// Of all pairs of clouds in the problem file of a sequence (data set, sequence), where known.
   std::map<std::pair<std::string, std::string>, std::vector<double>> overlaps;
+  /// Sequences (data set, sequence) whose problems a tool drew in some entry: whatever their name,
+  /// they are not the published ones.
+  std::set<std::pair<std::string, std::string>> own_problems;
 
   /// Selections of some levels.
   std::vector<const Selection*> at(const std::set<std::string>& levels) const;
@@ -43,6 +46,9 @@ Problems select(const Entry& entry, const Selection& selection);
 /// Errors, and the number from 0 of each one's pair of clouds.
 std::vector<double> errorsOf(const Problems& problems);
 std::vector<std::size_t> unitsOf(const Problems& problems);
+
+/// Names of the sequences in own_problems, separated by commas.
+std::string namesOfOwnProblems(const Section& section);
 
 /// The name of a sequence in a section: with its data set where two data sets have one of that
 /// name.

@@ -106,6 +106,10 @@ class Writer {
     add(groundTruthTable(section, accuracies));
     add(publishedTable(section));
     addProblems(problemTable(section));
+    json["own_problems"] = Json::array();
+    for (const auto& [data_set, sequence] : section.own_problems) {
+      json["own_problems"].push_back(data_set + "/" + sequence);
+    }
     json["published_correlations"] = publishedCorrelationsOf(section);
     json["charts"] = chartsOf(section);
     json_["sections"].push_back(std::move(json));
