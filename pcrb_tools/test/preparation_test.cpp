@@ -193,8 +193,9 @@ TEST_F(Preparation, AFailedCheckIsAFailure) {
 
 TEST_F(Preparation, ADefectiveLogStopsItWithSequenceFileAndLineAndAWayOn) {
   pcrb_test::writeFile(folder_.file("logs/planetary/p2at_met/p2at_met_003.gt"), "1 0 0\n");
-  PCRB_EXPECT_ERROR(pcrb::InvalidFile, prepare(), "planetary/p2at_met: ", "p2at_met_003.gt:1: ",
-                    "name the sequences to prepare without it");
+  pcrb_test::expectError<pcrb::InvalidFile>(
+      [&] { prepare(); },
+      "planetary/p2at_met: ", "p2at_met_003.gt:1: ", "name the sequences to prepare without it");
   options_.sequences = {"box_met"};
   EXPECT_TRUE(prepare());
 }
