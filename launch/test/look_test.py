@@ -50,10 +50,13 @@ class LookTest(TestCase):
         self.screen = self.start(Screen(self.path('screen')))
 
     def replay(self, name='replay', **parameters):
-        """Shows its last scene for as long as the test lasts."""
+        """Shows its last scene for as long as the test lasts, and leaves the master in good order for the next."""
         rospy.set_param(f'/pcrb/{name}', {'rate': 1000, 'keep_alive': True, **parameters})
         self.addCleanup(rospy.delete_param, f'/pcrb/{name}')
-        self.start(Child([executable('pcrb_server', 'replay'), f'__name:={name}'], '/pcrb')).wait_for_output('at the end')
+        replay = self.start(Child([executable('pcrb_server', 'replay'), f'__name:={name}'], '/pcrb'))
+        replay.wait_for_output('at the end')
+        self.addCleanup(replay.wait)
+        self.addCleanup(replay.interrupt)
 
     def look(self, configuration, background, shown, hidden):
         """Starts rviz with some topics off; the part of the picture that it draws, once the others are seen."""
