@@ -14,7 +14,7 @@ from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, executable, row_key, wait_until
+from pcrb_testing import Child, TestCase, executable, row_key, run_info, wait_until
 
 
 class ControlTest(TestCase):
@@ -38,6 +38,17 @@ class ControlTest(TestCase):
         problem = client.next_problem()
         self.assertGreater(problem.header.stamp, start)
         return problem
+
+    def test_a_problem_skipped_before_a_client_came_is_nobodys(self):
+        server = self.server(self.data, sequences='kitchen')
+        client = self.client(server)
+        client.next_problem()
+        self.assertTrue(server.call('benchmark_server/skip', Trigger).success)
+        wait_until(server.rows, 'the problem is skipped')
+        self.assertNotIn('client', run_info(server.run))
+        client.serve(server)
+        self.assert_ends_well(server)
+        self.assertEqual(run_info(server.run)['client'], rospy.get_name())
 
     def test_start_pause_and_skip(self):
         server = self.server(self.data, autostart=False, time_limit=60.0)

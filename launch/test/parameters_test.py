@@ -60,12 +60,29 @@ class ParametersTest(TestCase):
 
     def test_a_run_of_another_configuration_is_refused_with_the_differences_named(self):
         server = self.finished(self.server(self.data, subset=2))
-        other = self.start(server.again(subset=3, time_limit=5.0, debug=True, sequences='kitchen'))
+        other = self.start(server.again(subset=3, time_limit=5.0, debug=True, sequences='kitchen', under_test='icp'))
         self.assert_fails(
             other, 'holds a run of another configuration', r'subset: the run has `2`, asked for `3`',
             r'time_limit: the run has `10`, asked for `5`', r'debug: the run has `false`, asked for `true`',
-            r'sequences: the run has `all`, asked for `kitchen`', r'hall_local.txt: not selected')
+            r'sequences: the run has `all`, asked for `kitchen`', r'hall_local.txt: not selected',
+            r'under_test: the run has ``, asked for `icp`')
         self.assert_ends_well(self.start(server.again()))
+
+    def test_a_run_goes_on_only_with_the_same_parameters_of_the_client(self):
+        self.addCleanup(rospy.delete_param, rospy.get_name())
+        rospy.set_param(rospy.get_name(), {'method': 'icp'})
+        server = self.server(self.data, sequences='kitchen')
+        client = self.client(server)
+        client.serve(server, limit=5)
+        server.kill()
+        rospy.set_param(rospy.get_name(), {'method': 'gicp'})
+        server = self.start(server.again())
+        client.serve(server)
+        self.assert_fails(server, r'with the parameters `\[method:icp\]`, found `\[method:gicp\]`: give another')
+        rospy.set_param(rospy.get_name(), {'method': 'icp'})
+        server = self.start(server.again())
+        client.serve(server)
+        self.assert_ends_well(server)
 
     def test_a_run_whose_problem_file_has_changed_is_refused(self):
         server = self.finished(self.server(self.data, subset=2))

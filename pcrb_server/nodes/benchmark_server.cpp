@@ -10,6 +10,7 @@ const pcrb::NodeHelp kHelp{"benchmark_server",
                            R"(Private parameters (default):
   root              folder in the common layout: <root>/<data set>/<sequence>_<kind>.txt and clouds
   run               folder of the results; with results of the same configuration the run goes on
+  under_test ()     name of what is benchmarked; a run goes on only under the same
   sequences (all)   sequences, data sets or data_set/sequence, separated by blanks
   kind (local)      local, global or both
   presentation (registration)  registration or localization

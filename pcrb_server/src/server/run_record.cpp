@@ -101,6 +101,11 @@ void RunRecord::noteCloud(const std::string& name, const std::string& hash) {
 }
 
 void RunRecord::noteClient(const std::string& name, const std::string& parameters) {
+  const std::string& before = info_["client_parameters"];
+  if (info_["client"] == name && before != parameters && store_.count() > 0) {
+    throw StoreError(store_.path() + ": holds results of `" + name + "` with the parameters `" +
+                     before + "`, found `" + parameters + "`: give another ~run, or those");
+  }
   note("client", name);
   if (!parameters.empty()) note("client_parameters", parameters);
 }

@@ -38,6 +38,7 @@ class RunRecord {
 
   /// Records who answers, and how it is set up: shards with other ones cannot be merged.
   /// @param parameters  the client's private parameters as text; empty = none.
+  /// @throws StoreError  if the run has results of the same client with other parameters.
   void noteClient(const std::string& name, const std::string& parameters);
 
   /// noteClient(), for one that must be the same for all results of the run.

@@ -35,6 +35,7 @@ void parseShard(const std::string& text, ServerParameters& parameters) {
 void readFolders(NodeParameters& reader, ServerParameters& parameters) {
   parameters.root = reader.requiredString("root");
   parameters.run = reader.requiredString("run");
+  parameters.under_test = reader.string("under_test", "");
   if (!parameters.root.empty() && !std::filesystem::is_directory(parameters.root)) {
     reader.addMistake("~root: found `" + parameters.root + "`, expected an existing folder");
   }
@@ -92,7 +93,8 @@ std::map<std::string, std::string> configuration(const ServerParameters& paramet
   std::string kinds;
   for (const Kind kind : parameters.kinds)
     kinds += (kinds.empty() ? "" : " ") + std::string(toString(kind));
-  return {{"sequences", join(parameters.sequences)},
+  return {{"under_test", parameters.under_test},
+          {"sequences", join(parameters.sequences)},
           {"kinds", kinds},
           {"presentation", toString(parameters.presentation)},
           {"subset", std::to_string(parameters.subset)},

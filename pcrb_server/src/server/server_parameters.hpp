@@ -14,6 +14,7 @@ namespace pcrb {
 struct ServerParameters {
   std::string root;
   std::string run;
+  std::string under_test;              ///< name of what is benchmarked; empty = not told
   std::vector<std::string> sequences;  ///< `all`, sequences, data_set/sequence, or data sets
   std::vector<Kind> kinds;
   PresentationKind presentation = PresentationKind::kRegistration;
