@@ -59,8 +59,8 @@ class Recorder:
 
     def attach(self, node):
         """Waits until every topic that a node publishes is recorded."""
-        self.look()
         publishers, _, _ = self._master.getSystemState()
+        self.look()  # after it: each of these topics is known now
         for topic, nodes in publishers:
             if node in nodes:
                 wait_until(self._subscribers[topic].get_num_connections, f'{topic} is recorded')

@@ -11,19 +11,20 @@ from geometry_msgs.msg import Pose, PoseStamped
 from pcrb_msgs.msg import Summary
 from pcrb_msgs.srv import SubmitPoseRequest as Request
 from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import PointCloud2
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from leak_detector import LeakDetector, Secrets, angles, record
 from leak_recorder import Recorder
-from pcrb_testing import TestCase, wait_until
+from pcrb_testing import wait_until
+from pcrb_testing_bridge import BridgeTestCase
 
 
-class LeakTest(TestCase):
+class LeakTest(BridgeTestCase):
 
     def setUp(self):
         super().setUp()
-        self.data = maths.make_data_set(self.path('root'), points=1000)
         files = {name for _, name in self.data.clouds}
         self.words = [*files, *(name[:-4] for name in files), *(problem.id for problem in self.data.problems)]
 
@@ -38,7 +39,7 @@ class LeakTest(TestCase):
         nowhere = PoseStamped()
         nowhere.header.frame_id, nowhere.pose.orientation.w = 'nowhere', 1.0
         first = {0: {'pose': wrong}, 1: {'status': Request.FAILED, 'reason': 'no idea'}, 2: {'pose': nowhere}}
-        for fields in first.get(problem.index, {}), {}:
+        for fields in first.get(problem.index, {}), {'cpu_time': 0.25, 'peak_memory': 1 << 20}:
             recorder.add('reply', client.submit(problem, **fields))
         recorder.add('ready', client.ready(problem))
 
@@ -53,9 +54,15 @@ class LeakTest(TestCase):
         wait_until(client.has_new_problem, 'the first problem is announced')
         recorder.attach(f'{server.namespace}/benchmark_server')
         client.serve(server, self.answer, limit=len(self.data.problems))
+        return self.leaks_of(server, parameters['presentation'])
+
+    def leaks_of(self, server, presentation, *others):
+        """What is found in the records of a run that has been played, and in other processes of it."""
+        recorder = self.recorder
         wait_until(lambda: f'{server.namespace}/summary' in recorder.recorded_topics(), 'the summary comes')
         recorder.look()
-        recorder.add_process(server)
+        for process in server, *others:
+            recorder.add_process(process)
         server.interrupt()
         self.assert_ends_well(server)
         self.assert_rows_of(server.run, self.data.problems)
@@ -63,7 +70,44 @@ class LeakTest(TestCase):
         for topic in 'target', 'source', 'problem', 'initialpose', 'result', 'summary':
             self.assertIn(f'{server.namespace}/{topic}', recorder.recorded_topics())
         self.assertLessEqual({'/tf', '/tf_static', 'parameters', 'graph', 'cmdline'}, recorder.recorded_topics())
-        return LeakDetector(self.secrets(server, parameters['presentation']), self.words).leaks(recorder.records)
+        return LeakDetector(self.secrets(server, presentation), self.words).leaks(recorder.records)
+
+    def take_source(self, message):
+        """Each problem has one."""
+        self.recorder.moment = len(self.handed_out)
+        self.handed_out.append(maths.points_of(message))
+
+    def play_through_bridge(self, **parameters):
+        """As play(), with a localization node behind the bridge, which sends all that it can."""
+        self.handed_out = []
+        self.recorder = recorder = Recorder()
+        self.addCleanup(recorder.close)
+        server = self.localization(sequences='all', kind='both', global_guess=True, linger=60.0, **parameters)
+        wait_until(lambda: f'{server.namespace}/source' in dict(rospy.get_published_topics()), 'the server is there')
+        sources = rospy.Subscriber(f'{server.namespace}/source', PointCloud2, self.take_source)
+        self.addCleanup(sources.unregister)
+        publisher = rospy.Publisher(f'{server.namespace}/robot/pose', PoseStamped, queue_size=10)
+        self.addCleanup(publisher.unregister)
+
+        def answer(stamp, T):
+            reply = PoseStamped()
+            reply.header.frame_id, reply.header.stamp = 'map', stamp
+            maths.fill_pose(reply.pose, T)
+            publisher.publish(reply)
+
+        self.robot(server, answer, maths.transform(maths.axis_angle([0, 0, 1], 0.05), [0.2, -0.1, 0.05]))
+        wait_until(sources.get_num_connections, 'sources will be seen')
+        recorder.attach(f'{server.namespace}/benchmark_server')
+        robot = f'{server.namespace}/robot'
+        bridge = self.bridge(server, settle='nth', settle_count=2, map_file=self.path('map.pcd'),
+                             tf_odom_base='dynamic', imu_topic=f'{robot}/imu', odometry_topic=f'{robot}/odometry')
+        wait_until(lambda: f'{robot}/odometry' in dict(rospy.get_published_topics()), 'the bridge is there')
+        recorder.attach(f'{server.namespace}/localization_bridge')
+        leaks = self.leaks_of(server, 'localization', bridge)
+        self.assert_ends_well(bridge)
+        for topic in 'map', 'scan', 'initialpose', 'imu', 'odometry':
+            self.assertIn(f'{robot}/{topic}', recorder.recorded_topics())
+        return leaks
 
     def secrets(self, server, presentation):
         """Of each problem, in serving order; V is seen in the clouds, since no interface tells it."""
@@ -88,6 +132,13 @@ class LeakTest(TestCase):
 
     def test_localization_gives_nothing_away(self):
         self.assertEqual(self.play(presentation='localization'), [])
+
+    def test_the_bridge_gives_nothing_away(self):
+        self.assertEqual(self.play_through_bridge(), [])
+
+    def test_debug_gives_it_away_beside_the_bridge(self):
+        leaks = '\n'.join(self.play_through_bridge(debug=True))
+        self.assertRegex(leaks, r'debug/truth: 7 numbers spell V of problem 0\b')
 
     def assert_finds_what_debug_shows(self, presentation, ideal):
         leaks = '\n'.join(self.play(presentation=presentation, debug=True))
