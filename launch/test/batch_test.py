@@ -2,6 +2,7 @@
 """A run in shards is the run without: merged, interrupted, killed, beside other masters, without a network."""
 import os
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -110,6 +111,15 @@ class BatchTest(TestCase):
         self.assertEqual(rows(self.shard(1))[:len(killed)], killed)
         wait_until(lambda: not processes_that_name(self.run), 'all processes have ended')
 
+    def test_nodes_whose_roslaunch_was_killed_are_ended_and_the_shard_is_incomplete(self):
+        self.data = maths.make_data_set(self.path('large'), points=3000, perturbations=30)
+        batch = self.batch('--jobs', '1', method='gicp')
+        self.wait_for_rows_of_shard(0, 1)
+        roslaunch, = processes_that_name(f'run:={self.shard(0)}\0')
+        os.kill(roslaunch, signal.SIGKILL)
+        self.assert_fails(batch, r'shard 0/1: \d+ of 180 problems have a result', 'start this again')
+        self.assertEqual(processes_that_name(self.run), [])
+
     def test_a_node_that_never_answers_is_a_failure(self):
         """A thousandth of a second is too short for this method."""
         batch = self.batch('--jobs', '1', method='ransac', time_limit=0.001, subset=2, sequences='hall')
@@ -130,6 +140,9 @@ class BatchTest(TestCase):
     def test_wrong_arguments_are_refused(self):
         self.assert_fails(self.batch(run='elsewhere'), 'found `run:=elsewhere`')
         self.assert_fails(self.batch(root='nowhere'), 'root: found `nowhere`, expected an existing folder')
+        self.assert_fails(self.batch(methd='gicp'), 'found `methd:=gicp`, expected arguments of .*benchmark.launch: root')
+        self.assert_fails(self.batch('--launch', 'no.launch'), 'no.launch: found no text, expected a launch file')
+        self.assertFalse(os.path.exists(self.run))
         self.assert_fails(self.batch('--shards', '2', '--only', '2'), 'found 2, expected a shard below 2')
 
 

@@ -7,15 +7,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <optional>
-#include <sstream>
 #include <thread>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/number.hpp"
+#include "pcrb_server/process_tree.hpp"
 
 extern char** environ;
 
@@ -26,35 +21,8 @@ namespace {
 constexpr auto kPollPeriod = std::chrono::milliseconds(20);
 constexpr int kNotExecuted = 127;  // the shell's status for a command that cannot be run
 
-std::optional<pid_t> parentOf(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string line;
-  if (!std::getline(file, line)) return std::nullopt;
-  std::istringstream fields(line.substr(line.rfind(')') + 1));  // a name may hold anything
-  char state = 0;
-  pid_t parent = 0;
-  fields >> state >> parent;
-  return parent;
-}
-
 /// All processes below this one.
-std::vector<pid_t> descendants() {
-  std::multimap<pid_t, pid_t> children;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const auto pid = parseInt(entry.path().filename().string());
-    if (!pid) continue;
-    if (const auto parent = parentOf(static_cast<pid_t>(*pid))) {
-      children.emplace(*parent, static_cast<pid_t>(*pid));
-    }
-  }
-  std::vector<pid_t> found{getpid()};
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto [first, last] = children.equal_range(found[i]);
-    for (auto child = first; child != last; ++child) found.push_back(child->second);
-  }
-  found.erase(found.begin());
-  return found;
-}
+std::vector<pid_t> descendants() { return processesBelow(getpid()); }
 
 void signalAll(int signal) {
   for (const pid_t pid : descendants()) kill(pid, signal);

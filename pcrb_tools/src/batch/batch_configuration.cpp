@@ -1,8 +1,11 @@
 #include "batch/batch_configuration.hpp"
 
+#include <ros/package.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 
 #include "pcrb_core/error.hpp"
@@ -41,6 +44,17 @@ std::string listLess(const std::vector<std::string>& list,
   }
   return text.empty() ? " nothing" : text;
 }
+
+bool isInPackage(const BatchOptions& options) {
+  return options.launch.find('/') == std::string::npos;
+}
+
+std::string launchFile(const BatchOptions& options) {
+  if (!isInPackage(options)) return fs::absolute(options.launch).lexically_normal().string();
+  return ros::package::getPath("pcrb_launch") + "/" + options.launch;
+}
+
+std::string nameOf(const std::string& argument) { return argument.substr(0, argument.find(":=")); }
 
 /// Nodes have another working directory.
 std::string absoluteRoot(const std::string& argument) {
@@ -82,15 +96,34 @@ void noteConfiguration(const BatchOptions& options, int shards) {
   pcrb::writeFileAtomically(noteFile(options), text);
 }
 
-std::vector<std::string> launchCommand(const BatchOptions& options) {
-  std::vector<std::string> command{"roslaunch"};
-  if (options.launch.find('/') == std::string::npos) {
-    command.insert(command.end(), {"pcrb_launch", options.launch});
-  } else {
-    command.push_back(fs::absolute(options.launch).lexically_normal().string());
+void requireKnownArguments(const BatchOptions& options) {
+  const std::string path = launchFile(options);
+  std::string text;
+  for (const auto& line : readLines(path)) text += line + "\n";
+  if (text.empty()) throw pcrb::InvalidFile(path, 0, "no text", "a launch file");
+  const std::regex declaration("<arg\\s[^>]*?\\bname\\s*=\\s*[\"']([^\"']+)[\"']");
+  std::set<std::string> known;
+  std::string list;
+  for (std::sregex_iterator found(text.begin(), text.end(), declaration), end; found != end;
+       ++found) {
+    if (known.insert((*found)[1]).second) list += " " + (*found)[1].str();
   }
   for (const auto& argument : options.arguments) {
-    const std::string name = argument.substr(0, argument.find(":="));
+    if (known.count(nameOf(argument)) > 0) continue;
+    throw pcrb::InvalidParameter("found `" + argument + "`, expected arguments of " + path + ":" +
+                                 list);
+  }
+}
+
+std::vector<std::string> launchCommand(const BatchOptions& options) {
+  std::vector<std::string> command{"roslaunch"};
+  if (isInPackage(options)) {
+    command.insert(command.end(), {"pcrb_launch", options.launch});
+  } else {
+    command.push_back(launchFile(options));
+  }
+  for (const auto& argument : options.arguments) {
+    const std::string name = nameOf(argument);
     if (name == "run" || name == "shard") {
       throw pcrb::InvalidParameter("found `" + argument + "`, expected no " + name +
                                    ":=, which this tool gives itself (see --help)");

@@ -17,6 +17,10 @@ int numberOfShards(const BatchOptions& options);
 /// @throws pcrb::Error  if something else is noted, naming every difference.
 void noteConfiguration(const BatchOptions& options, int shards);
 
+/// roslaunch itself takes an argument that no launch file declares for none, without a word.
+/// @throws pcrb::InvalidParameter  if there is such an argument, naming those that are known.
+void requireKnownArguments(const BatchOptions& options);
+
 /// roslaunch and its arguments, but for `run` and `shard`.
 /// @throws pcrb::InvalidParameter  if those or a wrong `root` are among the arguments.
 std::vector<std::string> launchCommand(const BatchOptions& options);

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "batch/batch_configuration.hpp"
+#include "batch/orphans.hpp"
 #include "batch/shard.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_tools/interruption.hpp"
@@ -31,7 +33,7 @@ constexpr std::chrono::seconds kTerminateLimit{5};
 class Batch {
  public:
   Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOptions& options);
-  ~Batch() { stop(); }
+  ~Batch();
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 
@@ -44,6 +46,7 @@ class Batch {
  private:
   void startSome();
   void reap();
+  void endLeftNodes();
   void showProgress();
   void stop();
   bool waitForAll(std::chrono::seconds limit);
@@ -59,6 +62,7 @@ class Batch {
 
 Batch::Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOptions& options)
     : jobs_(static_cast<std::size_t>(options.jobs)) {
+  adoptOrphans();
   for (int i = 0; i < settings->shards; ++i) {
     if (!options.only || *options.only == i) {
       shards_.push_back(std::make_unique<Shard>(settings, i));
@@ -68,6 +72,12 @@ Batch::Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOp
     progress_.keep(shard->done());
     if (!shard->isComplete()) waiting_.push_back(shard.get());
   }
+}
+
+Batch::~Batch() {
+  stop();
+  shards_.clear();
+  endOrphans({});
 }
 
 void Batch::run() {
@@ -106,7 +116,17 @@ void Batch::startSome() {
   }
 }
 
+/// Of a roslaunch that was killed, before others may take its shard for free.
+void Batch::endLeftNodes() {
+  std::set<pid_t> at_work;
+  for (Shard* shard : running_) {
+    if (!shard->hasEnded()) at_work.insert(shard->pid());
+  }
+  if (at_work.size() < running_.size()) endOrphans(at_work);
+}
+
 void Batch::reap() {
+  endLeftNodes();
   const auto has_ended = [](Shard* shard) { return !shard->isRunning(); };
   running_.erase(std::remove_if(running_.begin(), running_.end(), has_ended), running_.end());
 }
@@ -179,6 +199,7 @@ std::vector<std::string> launchArguments(int argc, char** argv) {
 int runBatchTool(const BatchOptions& given) {
   const BatchOptions options = withAbsolutePaths(given);
   const auto settings = makeSettings(options);
+  requireKnownArguments(options);
   std::filesystem::create_directories(options.run);
   noteConfiguration(options, settings->shards);
   const Interruption interruption;

@@ -38,6 +38,12 @@ class Shard {
   /// Whether it was started and has not ended yet; frees the lock once it has.
   bool isRunning();
 
+  /// Its roslaunch; -1 if there is none.
+  pid_t pid() const { return process_ ? process_->pid() : -1; }
+
+  /// Whether its roslaunch has ended, whatever is left of its nodes.
+  bool hasEnded() { return !process_ || process_->ended(); }
+
   /// Asks for an orderly end.
   void interrupt(int signal);
 
