@@ -140,7 +140,7 @@ class BatchTest(TestCase):
     def test_wrong_arguments_are_refused(self):
         self.assert_fails(self.batch(run='elsewhere'), 'found `run:=elsewhere`')
         self.assert_fails(self.batch(root='nowhere'), 'root: found `nowhere`, expected an existing folder')
-        self.assert_fails(self.batch(methd='gicp'), 'found `methd:=gicp`, expected arguments of .*benchmark.launch: root')
+        self.assert_fails(self.batch(methd='gicp'), 'found `methd:=gicp`, expected arguments of .*launch: root')
         self.assert_fails(self.batch('--launch', 'no.launch'), 'no.launch: found no text, expected a launch file')
         self.assertFalse(os.path.exists(self.run))
         self.assert_fails(self.batch('--shards', '2', '--only', '2'), 'found 2, expected a shard below 2')

@@ -40,8 +40,9 @@ class BridgeTestCase(TestCase):
         self.data = maths.make_data_set(self.path('root'), points=1000)
 
     def localization(self, run='run', **parameters):
+        """Its summary stays up until the bridge, which ends by it, has read it."""
         return self.server(self.data, run=self.path(run), presentation='localization',
-                           **{'sequences': 'hall', 'time_limit': 30.0, **parameters})
+                           **{'sequences': 'hall', 'time_limit': 30.0, 'linger': 60.0, **parameters})
 
     def twin_servers(self, **parameters):
         """Two runs of the same secret, so that both put the very same problems; to be started one after the other."""
@@ -50,8 +51,9 @@ class BridgeTestCase(TestCase):
         server.interrupt()
         server.wait()
         shutil.copytree(self.path('run'), self.path('twin'))
+        twin = {**server.parameters, 'autostart': True, 'run': self.path('twin')}
         return (lambda: self.start(server.again(autostart=True)),
-                lambda: self.start(Server(**{**server.parameters, 'autostart': True, 'run': self.path('twin')})))
+                lambda **changes: self.start(Server(**{**twin, **changes})))
 
     def bridge(self, server, **parameters):
         return self.start(Bridge(server, **parameters))
