@@ -201,9 +201,9 @@ bool BenchmarkServer::waitForClient() {
   return true;
 }
 
-void BenchmarkServer::waitForReaders() {
+/// @param had_readers  before the summary was published: they may have left by now.
+void BenchmarkServer::waitForReaders(bool had_readers) {
   const auto end = Exchange::Clock::now() + std::chrono::duration<double>(parameters_.linger);
-  bool had_readers = false;
   while (!shutdown_.requested() && Exchange::Clock::now() < end) {
     const bool has_readers = publications_.hasSummaryReaders();
     if (had_readers && !has_readers) return;  // clients have read it and ended
@@ -223,8 +223,9 @@ bool BenchmarkServer::conclude() {
     std::cout << done_ << " of " << plan_.problems.size()
               << " problems have a result; start again with the same ~run to go on" << std::endl;
   }
+  const bool has_readers = publications_.hasSummaryReaders();
   publications_.summary(summaries, is_finished);
-  if (is_finished) waitForReaders();
+  if (is_finished) waitForReaders(has_readers);
   return is_finished;
 }
 

@@ -47,7 +47,7 @@ class BenchmarkServer {
   bool serve(PreparedProblem prepared);
   bool waitForClient();
   Announcement nextAnnouncement(const PreparedProblem& prepared);
-  void waitForReaders();
+  void waitForReaders(bool had_readers);
   bool conclude();
 
   const ServerParameters& parameters_;
