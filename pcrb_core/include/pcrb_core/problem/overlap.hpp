@@ -40,10 +40,10 @@ std::size_t countPairs(const OverlapJob& job);
 
 /// Computes the overlaps of all sources with the wanted targets.
 ///
-/// Each cloud is read once. Memory: about 35 bytes per point of the clouds that are held, which are
-/// all clouds without a window, and 2 · window + 4 · threads clouds with one; one cloud in the form
-/// of readPcd per thread; one target's Coverage per thread. The values do not depend on the
-/// threads.
+/// Each cloud is read once. Memory: about 35 bytes per point of the clouds that are held (scans of
+/// surfaces; up to 100 where points fill a volume), which are all clouds without a window, and
+/// 2 · window + 4 · threads clouds with one; one cloud in the form of readPcd per thread; one
+/// target's Coverage per thread. The values do not depend on the threads.
 /// @throws InvalidFile       if a cloud cannot be read.
 /// @throws InvalidProblem    if a cloud is empty, or is not in the frame of the others.
 /// @throws InvalidParameter  if the distance is not positive, or a target is no position in
