@@ -72,7 +72,8 @@ void writePlanetaryLog(const std::string& folder, const std::string& set, int sc
     std::string points;
     for (int k = 0; k < 1600; ++k) {
       const double x = 0.1 * (k % 40);
-      const double y = 0.1 * (k / 40);
+      const int row = k / 40;
+      const double y = 0.1 * row;
       points += std::to_string(x) + ' ' + std::to_string(y) + ' ' +
                 std::to_string(0.3 * ((k * 7) % 5)) + '\n';
     }
