@@ -49,8 +49,8 @@ class SyntheticScans {
       const double jitter = static_cast<double>(bits() >> 11) * 0x1.0p-53;
       const double azimuth =
           2.0 * M_PI * (static_cast<double>(ray % columns) + jitter) / static_cast<double>(columns);
-      const double turn =
-          static_cast<double>(ray / columns) * 3.0 * 0.618 / static_cast<double>(columns);
+      const std::size_t turns = ray / columns;
+      const double turn = static_cast<double>(turns) * 3.0 * 0.618 / static_cast<double>(columns);
       const double elevation =
           (turn - std::floor(turn) - 0.5) * (room_ ? 2.6 : 1.2) - (room_ ? 0.0 : 0.4);
       const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
