@@ -1,6 +1,7 @@
 #include "pcrb_tools/overlap_tool.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <numeric>
 
@@ -98,6 +99,7 @@ void runOverlapTool(const OverlapOptions& options) {
   const pcrb::OverlapJob job = makeJob(folder, options);
   const Provenance provenance = makeProvenance(folder, job);
   if (provenance.isUpToDate(output)) {
+    std::filesystem::remove(output + ".partial");  // a kill may have come before its end
     std::cerr << output << ": complete and unchanged, kept" << std::endl;
     return;
   }
