@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_tools/fetch/child_process.hpp"
 #include "pcrb_tools/fetch/sources.hpp"
 #include "pcrb_tools/fetch/unpack.hpp"
+#include "pcrb_tools/run_child.hpp"
 #include "support/file_servers.hpp"
 #include "support/log_folder.hpp"
 #include "support/temporary_folder.hpp"

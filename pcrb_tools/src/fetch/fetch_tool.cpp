@@ -11,10 +11,10 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_tools/check_tool.hpp"
 #include "pcrb_tools/fetch/checksums.hpp"
-#include "pcrb_tools/fetch/child_process.hpp"
 #include "pcrb_tools/fetch/sources.hpp"
 #include "pcrb_tools/fetch/unpack.hpp"
 #include "pcrb_tools/progress.hpp"
+#include "pcrb_tools/run_child.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "pcrb_tools/fetch/child_process.hpp"
+#include "pcrb_tools/run_child.hpp"
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -22,7 +22,11 @@ int runChild(const std::vector<std::string>& command) {
     throw pcrb::InvalidFile(command[0], "cannot be run: " + std::generic_category().message(error));
   }
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) {
+      throw pcrb::Error(command[0] + ": lost: " + std::generic_category().message(errno));
+    }
+  }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
