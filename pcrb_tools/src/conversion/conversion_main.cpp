@@ -1,7 +1,5 @@
 #include "pcrb_tools/conversion/conversion_main.hpp"
 
-#include <iostream>
-
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
@@ -44,12 +42,7 @@ int runConversion(CLI::App& app, int argc, char** argv, const ConversionRequest&
                   const std::function<ConversionReport()>& convert) {
   return runTool(app, argc, argv, [&] {
     const Interruption interruption;
-    const ConversionReport report = convert();
-    std::cout << formatReport(report);
-    for (const auto& line : describeMissingClouds(request, report)) {
-      std::cout << "  missing: " << line << '\n';
-    }
-    std::cout << std::flush;
+    printReport(request, convert());
     return kSuccess;
   });
 }

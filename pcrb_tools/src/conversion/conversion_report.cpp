@@ -1,3 +1,4 @@
+#include <iostream>
 #include <sstream>
 
 #include "pcrb_tools/conversion/conversion.hpp"
@@ -46,6 +47,14 @@ std::string formatReport(const ConversionReport& report) {
   text << '\n';
   for (const auto& note : report.notes) text << "  note: " << note << '\n';
   return text.str();
+}
+
+void printReport(const ConversionRequest& request, const ConversionReport& report) {
+  std::cout << formatReport(report);
+  for (const auto& line : describeMissingClouds(request, report)) {
+    std::cout << "  missing: " << line << '\n';
+  }
+  std::cout << std::flush;
 }
 
 }  // namespace pcrb_tools

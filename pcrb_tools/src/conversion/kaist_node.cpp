@@ -3,6 +3,7 @@
 #include "conversion/kaist_stream.hpp"
 #include "conversion/live_run.hpp"
 #include "pcrb_tools/conversion/live_node.hpp"
+#include "pcrb_tools/tool_main.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -67,7 +68,8 @@ int run(pcrb::ShutdownNotice& shutdown) {
                                             [&stream](const auto& scan) { stream.addRight(scan); });
   input.run(shutdown, live, conversion);
   stream.finish();
-  return reportLive(request, conversion.finish());
+  printReport(request, conversion.finish());
+  return kSuccess;
 }
 
 }  // namespace

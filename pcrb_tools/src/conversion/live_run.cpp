@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <string_view>
 
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
 #include "pcrb_tools/conversion/live_node.hpp"
-#include "pcrb_tools/tool_main.hpp"
 
 namespace pcrb_tools {
 
@@ -77,15 +75,6 @@ bool LiveInput::isIdle(double limit) {
   if (total != seen_) last_ = now;
   seen_ = total;
   return limit > 0.0 && total > 0 && std::chrono::duration<double>(now - last_).count() > limit;
-}
-
-int reportLive(const ConversionRequest& request, const ConversionReport& report) {
-  std::cout << formatReport(report);
-  for (const auto& line : describeMissingClouds(request, report)) {
-    std::cout << "  missing: " << line << '\n';
-  }
-  std::cout << std::flush;
-  return kSuccess;
 }
 
 }  // namespace pcrb_tools

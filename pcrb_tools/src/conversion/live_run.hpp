@@ -63,7 +63,4 @@ class LiveInput {
   std::chrono::steady_clock::time_point last_;
 };
 
-/// Prints what became of the stream; returns the exit status.
-int reportLive(const ConversionRequest& request, const ConversionReport& report);
-
 }  // namespace pcrb_tools

@@ -4,6 +4,7 @@
 #include "conversion/tum_stream.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_tools/conversion/live_node.hpp"
+#include "pcrb_tools/tool_main.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -80,7 +81,8 @@ int run(pcrb::ShutdownNotice& shutdown) {
   subscribe(request.options, stream, input);
   input.run(shutdown, live, conversion);
   stream.finish();
-  return reportLive(request, conversion.finish());
+  printReport(request, conversion.finish());
+  return kSuccess;
 }
 
 }  // namespace

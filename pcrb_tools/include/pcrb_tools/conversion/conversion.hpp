@@ -107,4 +107,7 @@ class Conversion {
 std::vector<std::string> describeMissingClouds(const ConversionRequest& request,
                                                const ConversionReport& report);
 
+/// Prints the report and the clouds that are missing: what every converter ends with.
+void printReport(const ConversionRequest& request, const ConversionReport& report);
+
 }  // namespace pcrb_tools
