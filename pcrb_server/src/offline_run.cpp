@@ -23,7 +23,6 @@ ServerParameters toParameters(const OfflineRunOptions& options) {
   parameters.upright = options.upright;
   parameters.subset = options.subset;
   parameters.seed = options.seed;
-  parameters.cache_bytes = std::size_t{512} << 20;
   return parameters;
 }
 

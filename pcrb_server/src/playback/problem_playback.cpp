@@ -22,7 +22,6 @@ ServerParameters toParameters(const ProblemsOptions& options) {
   parameters.time_limit = options.time_limit;
   parameters.map_frame = options.map_frame;
   parameters.scan_frame = options.scan_frame;
-  parameters.cache_bytes = std::size_t{512} << 20;
   return parameters;
 }
 

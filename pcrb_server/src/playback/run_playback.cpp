@@ -46,7 +46,6 @@ ServerParameters toParameters(const RunOptions& options, const RunInfo& info,
   parameters.presentation = presentationFromString(require(info, "presentation", options.run));
   parameters.upright = require(info, "upright", options.run) == "true";
   parameters.map_frame = options.map_frame;
-  parameters.cache_bytes = std::size_t{512} << 20;
   std::set<std::string> sequences;
   std::set<Kind> kinds;
   for (const Result& result : results) {

@@ -31,7 +31,7 @@ struct ServerParameters {
   bool debug = false;
   bool autostart = true;
   double linger = 5.0;  ///< s that the summary stays up at the end, unless its readers have left
-  std::size_t cache_bytes = 0;
+  std::size_t cache_bytes = std::size_t{512} << 20;
   int load_threads = 1;
   std::string map_frame;
   std::string scan_frame;
