@@ -98,13 +98,14 @@ void runOverlapTool(const OverlapOptions& options) {
       options.output.empty() ? folder.sibling(folder.sequence + "_overlap.txt") : options.output;
   const pcrb::OverlapJob job = makeJob(folder, options);
   const Provenance provenance = makeProvenance(folder, job);
+  const std::string journal_path = output + ".partial";
   if (provenance.isUpToDate(output)) {
-    std::filesystem::remove(output + ".partial");  // a kill may have come before its end
+    std::filesystem::remove(journal_path);  // a kill may have come before its end
     std::cerr << output << ": complete and unchanged, kept" << std::endl;
     return;
   }
   if (!options.force) Provenance::requireReplaceable(output);
-  OverlapJournal journal(output + ".partial", provenance.text(), folder.clouds.size());
+  OverlapJournal journal(journal_path, provenance.text(), folder.clouds.size());
   const pcrb::OverlapMatrix matrix = computeMatrix(folder, job, journal);
   provenance.begin(output);
   writeOverlapMatrix(output, matrix);

@@ -99,6 +99,15 @@ TEST_F(OverlapToolTest, GoesOnFromAJournalWithATornLastLine) {
   }
 }
 
+TEST_F(OverlapToolTest, AJournalThatAKillLeftBesideACompleteMatrixIsRemoved) {
+  runOverlapTool(options_);
+  const auto made = fs::last_write_time(output_);
+  std::ofstream(output_ + ".partial") << "what a killed run did not remove\n";
+  runOverlapTool(options_);
+  EXPECT_EQ(fs::last_write_time(output_), made);
+  EXPECT_FALSE(fs::exists(output_ + ".partial"));
+}
+
 TEST_F(OverlapToolTest, JournalOfOtherParametersIsBegunAnew) {
   std::ofstream(output_ + ".partial") << "something else\n0 1 0.125\n";
   runOverlapTool(options_);
