@@ -7,6 +7,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/cloud_files.hpp"
+#include "pcrb_core/problem/dataset.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_tools/check_tool.hpp"
 #include "pcrb_tools/conversion/eth_conversion.hpp"
@@ -190,8 +191,7 @@ class Preparation {
 };
 
 bool isWanted(const std::string& wanted, const LogSequence& log) {
-  return wanted == "all" || wanted == log.data_set || wanted == log.sequence ||
-         wanted == log.data_set + '/' + log.sequence;
+  return pcrb::namesSequence(wanted, log.data_set, log.sequence);
 }
 
 /// The logs of the sequences that are asked for, each of which must be there.

@@ -66,4 +66,9 @@ std::vector<SequenceFiles> findSequences(const std::string& root) {
   return sequences;
 }
 
+bool namesSequence(const std::string& word, const std::string& data_set,
+                   const std::string& sequence) {
+  return word == "all" || word == sequence || word == data_set || word == data_set + "/" + sequence;
+}
+
 }  // namespace pcrb

@@ -93,11 +93,6 @@ std::vector<PlannedProblem> select(std::vector<PlannedProblem> problems,
 
 }  // namespace
 
-bool namesSequence(const std::string& word, const std::string& data_set,
-                   const std::string& sequence) {
-  return word == "all" || word == sequence || word == data_set || word == data_set + "/" + sequence;
-}
-
 RunPlan makeRunPlan(const ServerParameters& parameters) {
   RunPlan plan;
   std::map<std::string, std::shared_ptr<const Dataset>> data_sets;

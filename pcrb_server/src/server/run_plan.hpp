@@ -35,11 +35,6 @@ struct RunPlan {
   std::map<std::string, std::string> drawn_by;       ///< of those that a tool drew: its name
 };
 
-/// Whether a word of a selection names a sequence: `all`, the sequence, its data set, or
-/// `data_set/sequence`.
-bool namesSequence(const std::string& word, const std::string& data_set,
-                   const std::string& sequence);
-
 /// Reads the selected problem files; draws the subset and the shard.
 ///
 /// @throws Error  for an unknown sequence (naming the known ones), a malformed file, a perturbation

@@ -59,4 +59,9 @@ struct SequenceFiles {
 /// @throws InvalidFile  if the root is no readable folder.
 std::vector<SequenceFiles> findSequences(const std::string& root);
 
+/// Whether a word of a selection names a sequence: `all`, the sequence, its data set, or
+/// `data_set/sequence`.
+bool namesSequence(const std::string& word, const std::string& data_set,
+                   const std::string& sequence);
+
 }  // namespace pcrb
