@@ -8,6 +8,7 @@
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/playback/playback.hpp"
 #include "playback/problem_scene.hpp"
+#include "server/scoring.hpp"
 
 namespace pcrb {
 
@@ -97,7 +98,7 @@ class RunPlayback : public Playback {
     PosedProblem posed = poser_.pose(plannedOf(result));
     requireSame(*posed.target);
     requireSame(*posed.source);
-    const Transform T_residual = residual(posed, result);
+    const Transform T_residual = posed.presentation.residual(scoredPose(posed, result));
     // Both presentations show the source where its guess puts it, in the map's frame.
     posed.presentation = presentForRegistration(posed.P);
     const bool is_new_target = position_ == 0 || shown_ != posed.planned->target_path;
@@ -126,14 +127,6 @@ class RunPlayback : public Playback {
     const auto used = info_.find("cloud " + cloud.name);
     if (used == info_.end() || used->second == cloud.hash) return;
     throw StoreError(parameters_.root + ": " + cloud.name + " has changed since the run used it");
-  }
-
-  /// Without a reply, what was scored: the initial guess.
-  static Transform residual(const PosedProblem& posed, const Result& result) {
-    const bool has_reply = result.position && result.orientation;
-    return posed.presentation.residual(has_reply
-                                           ? makeTransform(*result.position, *result.orientation)
-                                           : posed.presentation.guess);
   }
 
   RunInfo info_;

@@ -13,6 +13,7 @@
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/topics.hpp"
 #include "server/problem_message.hpp"
+#include "server/scoring.hpp"
 
 namespace pcrb {
 
@@ -105,9 +106,7 @@ void Publications::finish(const PreparedProblem& prepared, const Announcement& a
 void Publications::showReply(const PreparedProblem& prepared, const Announcement& announcement,
                              const Result& result) {
   const std_msgs::Header in_map = makeHeader(parameters_.map_frame, announcement.stamp);
-  const Transform reply = result.position && result.orientation
-                              ? makeTransform(*result.position, *result.orientation)
-                              : prepared.presentation.guess;
+  const Transform reply = scoredPose(prepared, result);
   broadcast(parameters_.map_frame, "pcrb_reply", reply, announcement.stamp, false);
   const Transform T_map_source = prepared.presentation.residual(reply);
   if (source_aligned_.getNumSubscribers() > 0) {

@@ -43,4 +43,10 @@ Result scoreReply(const PosedProblem& posed, const Reply& reply) {
   return result;
 }
 
+Transform scoredPose(const PosedProblem& posed, const Result& result) {
+  return result.position && result.orientation
+             ? makeTransform(*result.position, *result.orientation)
+             : posed.presentation.guess;
+}
+
 }  // namespace pcrb

@@ -10,4 +10,7 @@ namespace pcrb {
 /// a pose the initial guess is scored.
 Result scoreReply(const PosedProblem& posed, const Reply& reply);
 
+/// The pose that a row was scored with: the accepted one, or without one the initial guess.
+Transform scoredPose(const PosedProblem& posed, const Result& result);
+
 }  // namespace pcrb
