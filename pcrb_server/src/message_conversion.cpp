@@ -2,8 +2,9 @@
 
 #include <sensor_msgs/PointField.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
-#include <optional>
 
 #include "pcrb_server/point_fields.hpp"
 
@@ -108,6 +109,24 @@ Transform fromMessage(const geometry_msgs::Pose& pose) {
   return makeTransform({pose.position.x, pose.position.y, pose.position.z},
                        Eigen::Quaterniond(pose.orientation.w, pose.orientation.x,
                                           pose.orientation.y, pose.orientation.z));
+}
+
+Transform fromMessage(const geometry_msgs::Transform& transform) {
+  const auto& t = transform.translation;
+  const auto& q = transform.rotation;
+  return makeTransform({t.x, t.y, t.z}, Eigen::Quaterniond(q.w, q.x, q.y, q.z));
+}
+
+std::optional<std::array<double, 36>> covarianceOf(
+    const geometry_msgs::PoseWithCovariance& estimate) {
+  const auto& numbers = estimate.covariance;
+  const auto is_zero = [](double number) { return number == 0.0; };
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  if (std::all_of(numbers.begin(), numbers.end(), is_zero)) return std::nullopt;
+  if (!std::all_of(numbers.begin(), numbers.end(), is_finite)) return std::nullopt;
+  std::array<double, 36> covariance{};
+  std::copy(numbers.begin(), numbers.end(), covariance.begin());
+  return covariance;
 }
 
 }  // namespace pcrb

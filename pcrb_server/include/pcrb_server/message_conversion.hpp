@@ -1,10 +1,13 @@
 #pragma once
 
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseWithCovariance.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "pcrb_core/point_cloud.hpp"
@@ -44,5 +47,11 @@ std_msgs::Header makeHeader(const std::string& frame, const ros::Time& stamp);
 
 /// @throws InvalidProblem  for non-finite numbers or a zero quaternion; others are normalised.
 Transform fromMessage(const geometry_msgs::Pose& pose);
+Transform fromMessage(const geometry_msgs::Transform& transform);
+
+/// Row-major x y z rx ry rz. None if all numbers are zero, which is what a node leaves that has
+/// none, or if one is not finite.
+std::optional<std::array<double, 36>> covarianceOf(
+    const geometry_msgs::PoseWithCovariance& estimate);
 
 }  // namespace pcrb

@@ -4,12 +4,8 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "bridge/tf_watch.hpp"
-#include "frame_name.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_server/frame_name.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
@@ -25,16 +21,6 @@ PublishedPose withHeader(const std_msgs::Header& header) {
   return pose;
 }
 
-/// All zeros are what a node leaves that has no covariance.
-void addCovariance(const boost::array<double, 36>& numbers, PublishedPose& pose) {
-  const auto is_zero = [](double number) { return number == 0.0; };
-  const auto is_finite = [](double number) { return std::isfinite(number); };
-  if (std::all_of(numbers.begin(), numbers.end(), is_zero)) return;
-  if (!std::all_of(numbers.begin(), numbers.end(), is_finite)) return;
-  pose.covariance.emplace();
-  std::copy(numbers.begin(), numbers.end(), pose.covariance->begin());
-}
-
 PublishedPose read(const geometry_msgs::PoseStamped& message) {
   PublishedPose pose = withHeader(message.header);
   pose.T_parent_frame = fromMessage(message.pose);
@@ -44,7 +30,7 @@ PublishedPose read(const geometry_msgs::PoseStamped& message) {
 PublishedPose read(const geometry_msgs::PoseWithCovarianceStamped& message) {
   PublishedPose pose = withHeader(message.header);
   pose.T_parent_frame = fromMessage(message.pose.pose);
-  addCovariance(message.pose.covariance, pose);
+  pose.covariance = covarianceOf(message.pose);
   return pose;
 }
 
@@ -52,7 +38,7 @@ PublishedPose read(const nav_msgs::Odometry& message) {
   PublishedPose pose = withHeader(message.header);
   pose.frame = withoutSlash(message.child_frame_id);
   pose.T_parent_frame = fromMessage(message.pose.pose);
-  addCovariance(message.pose.covariance, pose);
+  pose.covariance = covarianceOf(message.pose);
   return pose;
 }
 

@@ -1,28 +1,20 @@
 #include "bridge/tf_links.hpp"
 
+#include "pcrb_server/message_conversion.hpp"
+
 namespace pcrb {
-
-namespace {
-
-geometry_msgs::TransformStamped identity(const std::string& parent, const std::string& child,
-                                         const ros::Time& stamp) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = parent;
-  transform.header.stamp = stamp;
-  transform.child_frame_id = child;
-  transform.transform.rotation.w = 1.0;
-  return transform;
-}
-
-}  // namespace
 
 std::vector<geometry_msgs::TransformStamped> TfLinks::links(TfLink kind,
                                                             const ros::Time& stamp) const {
   const auto& p = parameters_;
   std::vector<geometry_msgs::TransformStamped> links;
-  if (p.tf_map_odom == kind) links.push_back(identity(p.map_frame, p.odom_frame, stamp));
-  if (p.tf_odom_base == kind) links.push_back(identity(p.odom_frame, p.base_frame, stamp));
-  if (p.tf_base_scan == kind) links.push_back(identity(p.base_frame, p.scan_frame, stamp));
+  const auto add = [&](TfLink wanted, const std::string& parent, const std::string& child) {
+    if (wanted != kind) return;
+    links.push_back(toMessage(Transform::Identity(), makeHeader(parent, stamp), child));
+  };
+  add(p.tf_map_odom, p.map_frame, p.odom_frame);
+  add(p.tf_odom_base, p.odom_frame, p.base_frame);
+  add(p.tf_base_scan, p.base_frame, p.scan_frame);
   return links;
 }
 

@@ -3,7 +3,8 @@
 #include <ros/this_node.h>
 #include <tf2/exceptions.h>
 
-#include "frame_name.hpp"
+#include "pcrb_server/frame_name.hpp"
+#include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
 
@@ -13,12 +14,6 @@ constexpr double kKeep = 60.0;  // s of transforms to remember
 constexpr std::uint32_t kQueue = 1000;
 
 }  // namespace
-
-Transform fromMessage(const geometry_msgs::Transform& message) {
-  const auto& t = message.translation;
-  const auto& q = message.rotation;
-  return makeTransform({t.x, t.y, t.z}, Eigen::Quaterniond(q.w, q.x, q.y, q.z));
-}
 
 TfWatch::TfWatch(ros::NodeHandle& node, std::set<std::string> owned, Listener listener)
     : owned_(std::move(owned)), listener_(std::move(listener)), buffer_(ros::Duration(kKeep)) {

@@ -42,6 +42,4 @@ class TfWatch {
   ros::Subscriber tf_static_;
 };
 
-Transform fromMessage(const geometry_msgs::Transform& message);
-
 }  // namespace pcrb

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <thread>
 
+#include "pcrb_server/message_conversion.hpp"
+
 namespace pcrb {
 
 namespace {
@@ -32,10 +34,7 @@ bool TfLookup::waitFor(const std::string& frame, const ros::Time& stamp) {
 std::optional<Transform> TfLookup::operator()(const std::string& frame, const ros::Time& stamp) {
   if (!waitFor(frame, stamp)) return std::nullopt;
   try {
-    const auto found = buffer_.lookupTransform(target_frame_, frame, stamp).transform;
-    return makeTransform(
-        {found.translation.x, found.translation.y, found.translation.z},
-        Eigen::Quaterniond(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z));
+    return fromMessage(buffer_.lookupTransform(target_frame_, frame, stamp).transform);
   } catch (const tf2::TransformException&) {
     return std::nullopt;  // gone between the check and the look-up
   }

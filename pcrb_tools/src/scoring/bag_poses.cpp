@@ -9,16 +9,14 @@
 
 #include "conversion/bag_messages.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_server/frame_name.hpp"
+#include "pcrb_server/message_conversion.hpp"
 #include "scoring/recorded_poses.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 using Request = pcrb_msgs::SubmitPose::Request;
-
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
 
 Request makeRequest(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
   Request request;
@@ -29,18 +27,13 @@ Request makeRequest(const std_msgs::Header& header, const geometry_msgs::Pose& p
   return request;
 }
 
-/// All zeros are what a node leaves that has no covariance; one that is not finite is none either.
 Request makeRequest(const std_msgs::Header& header,
                     const geometry_msgs::PoseWithCovariance& estimate) {
   Request request = makeRequest(header, estimate.pose);
-  const auto& numbers = estimate.covariance;
-  const bool is_finite = std::all_of(numbers.begin(), numbers.end(),
-                                     [](double number) { return std::isfinite(number); });
-  const bool is_zero =
-      std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0.0; });
-  if (is_zero || !is_finite) return request;
-  request.has_covariance = 1;
-  std::copy(numbers.begin(), numbers.end(), request.covariance.begin());
+  if (const auto covariance = pcrb::covarianceOf(estimate)) {
+    request.has_covariance = 1;
+    std::copy(covariance->begin(), covariance->end(), request.covariance.begin());
+  }
   return request;
 }
 
@@ -84,7 +77,7 @@ std::vector<RecordedPose> readBagPoses(const std::string& path, const std::strin
     const std_msgs::Header& header = pose.reply.request.pose.header;
     pose.stamp = static_cast<pcrb::Stamp>(header.stamp.toNSec());
     pose.place = path + ", " + topic + " at " + pcrb::formatStamp(pose.stamp);
-    if (withoutSlash(header.frame_id) != withoutSlash(frame)) {
+    if (pcrb::withoutSlash(header.frame_id) != pcrb::withoutSlash(frame)) {
       throw pcrb::InvalidFile(pose.place, 0, "a pose in the frame `" + header.frame_id + "`",
                               "`" + frame + "`");
     }
