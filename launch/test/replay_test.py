@@ -47,6 +47,13 @@ class Viewer:
         """In the order of their stamps."""
         return [message for _, message in sorted(self.messages[topic].items())]
 
+    def wait_for_transform(self, parent, child, translation):
+        def has_come():
+            newest = self.transforms.get((parent, child))
+            found = newest and [newest.translation.x, newest.translation.y, newest.translation.z]
+            return found and np.allclose(found, translation, rtol=0, atol=1e-9)
+        wait_until(has_come, f'{child} is at {translation} in {parent}')
+
     def close(self):
         for subscriber in self._subscribers:
             subscriber.unregister()
@@ -106,10 +113,8 @@ class ReplayTest(TestCase):
             sizes.append(grown.width)
             self.assertLess(np.abs(maths.points_of(grown)).max(), 100)
         self.assertEqual(sizes, sorted(set(sizes)))
-        earth = self.viewer.transforms['earth', 'map'].translation
-        self.assertEqual([earth.x, earth.y, earth.z], origin.tolist())
-        found = self.viewer.transforms['map', 'pcrb_sensor'].translation
-        np.testing.assert_allclose([found.x, found.y, found.z], poses[-1][:3, 3], atol=1e-9)
+        self.viewer.wait_for_transform('earth', 'map', origin)
+        self.viewer.wait_for_transform('map', 'pcrb_sensor', poses[-1][:3, 3])
 
     def test_the_growing_map_keeps_its_limit(self):
         self.replay(root=self.data.root, sequence='rooms/kitchen', map_leaf=0.05, map_points=700)
@@ -128,6 +133,7 @@ class ReplayTest(TestCase):
             self.assertEqual(scan.header.frame_id, 'pcrb_scan')
             np.testing.assert_allclose(maths.moved(poses[i], maths.points_of(scan)), scans[i], atol=FLOAT32)
         self.assert_ends_well(replay)
+        wait_until(lambda: self.viewer.of('initialpose') and self.viewer.of('map'), 'initialpose and map come')
         self.assertEqual(len(self.viewer.of('initialpose')), 1)
         self.assert_pose(self.viewer.of('initialpose')[0].pose.pose, poses[0])
         self.assert_points(self.viewer.of('map')[0], scans[1])
@@ -152,8 +158,8 @@ class ReplayTest(TestCase):
             self.assert_points(source, maths.moved(self.data.local_P(problem), points))
             self.assert_points(truth, points)
             self.assertIn('overlap 0.75', markers.markers[0].text)
-            target = [m for m in self.viewer.of('target') if m.header.stamp == announced.target_stamp]
-            self.assert_points(target[0], self.data.clouds['hall', problem.target] - self.data.origin(problem))
+            target = wait_until(lambda: self.viewer.messages['target'].get(announced.target_stamp), 'its target comes')
+            self.assert_points(target, self.data.clouds['hall', problem.target] - self.data.origin(problem))
 
     def run_of_guesses(self, presentation):
         """The results of a run whose client moves the guess a bit."""
