@@ -20,6 +20,7 @@ Arguments:
   --gtest_output=xml:FILE  JUnit file to write, as rostest asks for; --text is ignored
 
 Topics: summary, result; in the namespace /pcrb unless another is given.
+Calls: the server's ~start when it listens, so that no run is over before (autostart false).
 Exit status: 0 only if the run finished and every threshold was kept.)"};
 
 }  // namespace

@@ -117,6 +117,7 @@ void BenchmarkServer::offerControls() {
 
 bool BenchmarkServer::run() {
   RunProgress progress(done_, plan_.problems.size());
+  waitForStart();  // also if nothing remains: who starts it wants to read the summary
   for (std::size_t i = 0; i < remaining_.size(); ++i) {
     waitForStart();
     if (!parameters_.handshake) waitForListener();

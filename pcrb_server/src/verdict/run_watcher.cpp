@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/master.h>
 #include <ros/service.h>
+#include <std_srvs/Trigger.h>
 
 #include <algorithm>
 
@@ -39,6 +40,13 @@ RunWatcher::RunWatcher(const std::string& server, const std::vector<std::string>
 
 void RunWatcher::listen() {
   ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kListenPeriod));
+}
+
+void RunWatcher::startRun() {
+  if (is_started_ || summary_subscriber_.getNumPublishers() == 0) return;
+  const std::string service = ros::names::append(server_, services::kStart);
+  std_srvs::Trigger start;
+  is_started_ = ros::service::exists(service, false) && ros::service::call(service, start);
 }
 
 RunWatcher::Server RunWatcher::lookForServer() const {
@@ -88,6 +96,7 @@ pcrb_msgs::Summary RunWatcher::wait(double limit, const ShutdownNotice& shutdown
   while (!summary_) {
     listen();
     if (summary_) break;
+    startRun();
     if (shutdown.requested()) fail("this was ended by a signal");
     const double waited = secondsBetween(start, Clock::now());
     if (secondsBetween(looked_, Clock::now()) >= kLookPeriod) look(waited);

@@ -14,7 +14,9 @@ namespace pcrb {
 
 /// Watches the run of the benchmark server in this node's namespace until it is over.
 ///
-/// While it lives, the server sees that somebody reads its summary and stays (its ~linger).
+/// A server that waits for ~start starts when this listens to it: with a fast client, the run could
+/// be over before. While this lives, the server sees that somebody reads its summary and stays (its
+/// ~linger).
 class RunWatcher {
  public:
   /// @param server   name of the server's node, relative to the namespace.
@@ -39,6 +41,7 @@ class RunWatcher {
   };
 
   void listen();
+  void startRun();
   Server lookForServer() const;
   bool hasServerEnded();
   void look(double waited);
@@ -51,6 +54,7 @@ class RunWatcher {
   Server seen_ = Server::kAbsent;  ///< the most that was seen of it
   int absences_ = 0;               ///< looks in a row that found less
   Clock::time_point looked_;
+  bool is_started_ = false;
   ros::Subscriber summary_subscriber_;
   ros::Subscriber result_subscriber_;
   pcrb_msgs::SummaryConstPtr summary_;
