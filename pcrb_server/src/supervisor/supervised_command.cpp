@@ -5,55 +5,23 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <thread>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/process_tree.hpp"
-
-extern char** environ;
+#include "pcrb_server/start_program.hpp"
 
 namespace pcrb {
 
 namespace {
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(20);
-constexpr int kNotExecuted = 127;  // the shell's status for a command that cannot be run
 
 /// All processes below this one.
 std::vector<pid_t> descendants() { return processesBelow(getpid()); }
 
 void signalAll(int signal) {
   for (const pid_t pid : descendants()) kill(pid, signal);
-}
-
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  for (auto& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-/// A namespace is that of the node which supervises, not of what it starts.
-std::vector<std::string> environmentWithoutNamespace() {
-  std::vector<std::string> variables;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    if (std::strncmp(*variable, "ROS_NAMESPACE=", 14) != 0) variables.emplace_back(*variable);
-  }
-  return variables;
-}
-
-/// What the new process does, with system calls alone: other threads may hold any lock.
-[[noreturn]] void become(char* const* command, char* const* environment, pid_t parent) {
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  for (const int caught : {SIGINT, SIGTERM, SIGPIPE}) signal(caught, SIG_DFL);
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() == parent) execvpe(command[0], command, environment);
-  _exit(kNotExecuted);
 }
 
 }  // namespace
@@ -70,15 +38,11 @@ SupervisedCommand::~SupervisedCommand() { stop(); }
 
 void SupervisedCommand::start() {
   if (isRunning()) throw Error(command_.front() + ": runs already");
-  std::vector<std::string> environment = environmentWithoutNamespace();
-  const auto command = pointers(command_);
-  const auto variables = pointers(environment);
-  const pid_t parent = getpid();
-  const pid_t pid = fork();
-  if (pid == 0) become(command.data(), variables.data(), parent);
-  if (pid < 0) throw Error(command_.front() + ": no new process: " + std::strerror(errno));
-  setpgid(pid, pid);  // here too: stop() may come before the child gets to it
-  pid_ = pid;
+  ProgramStart start;
+  start.command = command_;
+  // It is that of the node which supervises, not of what it starts.
+  start.environment["ROS_NAMESPACE"] = std::nullopt;
+  pid_ = startProgram(start);
 }
 
 void SupervisedCommand::reap() {

@@ -2,29 +2,15 @@
 
 #include <sys/types.h>
 
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
+#include "pcrb_server/start_program.hpp"
 
 namespace pcrb_tools {
 
-/// How a program is started.
-struct ChildOptions {
-  std::vector<std::string> command;  ///< looked up in PATH
-  /// Changes to this process's environment; nothing: the variable is taken away.
-  std::map<std::string, std::optional<std::string>> environment;
-  std::string log;                ///< file that standard output and error are appended to
-  int inherited_descriptor = -1;  ///< open in the child, too, under the same number
-};
-
-/// A program in a process group of its own, so that a terminal's Ctrl-C reaches it only through
-/// its parent. It gets SIGTERM if its parent dies first.
+/// A program in a process group of its own, until it has ended.
 class ChildProcess {
  public:
-  /// @throws pcrb::Error  if the log cannot be opened or no process can be made. A program that is
-  ///                      not found ends with status 127.
-  explicit ChildProcess(const ChildOptions& options);
+  /// @throws pcrb::Error  as pcrb::startProgram().
+  explicit ChildProcess(const pcrb::ProgramStart& start);
 
   /// Kills it if it is still there; stop it before.
   ~ChildProcess();
@@ -40,7 +26,7 @@ class ChildProcess {
   pid_t pid() const { return pid_; }
 
  private:
-  pid_t pid_ = -1;
+  pid_t pid_;
   bool ended_ = false;
 };
 

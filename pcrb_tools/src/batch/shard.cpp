@@ -77,27 +77,26 @@ bool Shard::tryStart() {
   fs::create_directories(folder());
   if (!takeLock()) return false;
   port_ = std::make_unique<ReservedPort>();
-  ChildOptions options;
-  options.command = settings_->command;
-  options.command.push_back("run:=" + folder());
-  options.command.push_back("shard:=" + std::to_string(number_) + "/" +
-                            std::to_string(settings_->shards));
-  options.environment = {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(port_->number())},
-                         {"ROS_IP", "127.0.0.1"},
-                         {"ROS_HOSTNAME", std::nullopt},
-                         {"ROS_NAMESPACE", std::nullopt},
-                         {"ROS_LOG_DIR", folder() + "/log"}};
+  pcrb::ProgramStart start;
+  start.command = settings_->command;
+  start.command.push_back("run:=" + folder());
+  start.command.push_back("shard:=" + std::to_string(number_) + "/" +
+                          std::to_string(settings_->shards));
+  start.environment = {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(port_->number())},
+                       {"ROS_IP", "127.0.0.1"},
+                       {"ROS_HOSTNAME", std::nullopt},
+                       {"ROS_NAMESPACE", std::nullopt},
+                       {"ROS_LOG_DIR", folder() + "/log"}};
   if (!settings_->scratch.empty()) {
     const std::string scratch = settings_->scratch + "/shard_" + std::to_string(number_);
     fs::create_directories(scratch);
-    for (const char* name : {"ROS_HOME", "TMPDIR"}) options.environment[name] = scratch;
-    options.environment["ROS_LOG_DIR"] = scratch + "/log";
+    for (const char* name : {"ROS_HOME", "TMPDIR"}) start.environment[name] = scratch;
+    start.environment["ROS_LOG_DIR"] = scratch + "/log";
   }
-  options.log = logFile();
-  log_start_ =
-      fs::exists(options.log) ? static_cast<std::streamoff>(fs::file_size(options.log)) : 0;
-  options.inherited_descriptor = lock_;
-  process_ = std::make_unique<ChildProcess>(options);
+  start.log = logFile();
+  log_start_ = fs::exists(start.log) ? static_cast<std::streamoff>(fs::file_size(start.log)) : 0;
+  start.inherited_descriptor = lock_;
+  process_ = std::make_unique<ChildProcess>(start);
   return true;
 }
 
