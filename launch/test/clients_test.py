@@ -17,9 +17,9 @@ class ClientsTest(TestCase):
         super().setUp()
         self.data = maths.make_data_set(self.path('root'), points=300, perturbations=10)
 
-    def registration_node(self, server):
+    def registration_node(self, server, **parameters):
         name = f'{server.namespace}/registration_node'
-        rospy.set_param(name, {'method': 'icp'})
+        rospy.set_param(name, {'method': 'icp', **parameters})
         return self.start(Child([executable('pcrb_tools', 'registration_node')], server.namespace))
 
     def test_a_client_that_dies_and_comes_back_costs_at_most_the_problem_in_flight(self):
@@ -33,6 +33,20 @@ class ClientsTest(TestCase):
         self.assert_rows_of(server.run, self.data.of('local'))
         outcomes = [row['outcome'] for row in server.rows()]
         self.assertGreaterEqual(outcomes.count('replied'), len(outcomes) - 1)
+
+    def test_a_method_that_throws_fails_those_problems_only_and_is_made_anew(self):
+        server = self.server(self.data, time_limit=10.0)
+        parameters = self.path('none.yaml')
+        with open(parameters, 'w') as file:
+            file.write('{}\n')
+        self.registration_node(server, method='throwing_method', plugin='libpcrb_test_throwing_method.so',
+                               parameters=parameters)
+        self.assert_ends_well(server)
+        self.assert_rows_of(server.run, self.data.of('local'))
+        reasons = {row['reason'] for row in server.rows() if row['outcome'] == 'failed'}
+        self.assertEqual(reasons, {'the method threw std::bad_alloc', "the method threw a library's message",
+                                   'the method threw what is no std::exception'})
+        self.assertEqual({row['outcome'] for row in server.rows()}, {'failed', 'replied'})
 
     def test_a_client_that_comes_while_a_problem_is_out_may_still_answer_it(self):
         server = self.server(self.data, time_limit=60.0, sequences='kitchen')

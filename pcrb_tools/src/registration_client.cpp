@@ -23,49 +23,61 @@ bool RegistrationClient::prepareTarget() {
   const auto& problem = server_.problem();
   const auto target = server_.target();
   if (!target) return false;
-  const bool is_prepared =
-      method_ && data_set_ == problem->data_set && prepared_stamp_ == problem->target_stamp;
-  if (is_prepared) return true;
+  if (data_set_ == problem->data_set && prepared_stamp_ == problem->target_stamp) return true;
   if (!method_ || data_set_ != problem->data_set) {
     method_ = make_method_(problem->data_set);
     data_set_ = problem->data_set;
   }
-  target_failure_.clear();
   prepared_stamp_ = problem->target_stamp;
-  try {
-    method_->setTarget(std::make_shared<pcrb::PointCloud>(pcrb::fromMessage(*target)));
-  } catch (const pcrb::Error& error) {
-    target_failure_ = error.what();
-  }
+  target_failure_ = failureOf(
+      [&] { method_->setTarget(std::make_shared<pcrb::PointCloud>(pcrb::fromMessage(*target))); });
   return true;
+}
+
+std::optional<std::string> RegistrationClient::failureOf(const std::function<void()>& action) {
+  std::string reason = "the method threw ";
+  try {
+    action();
+    return std::nullopt;
+  } catch (const pcrb::Error& error) {
+    return error.what();
+  } catch (const std::exception& error) {
+    reason += error.what();
+  } catch (...) {
+    reason += "what is no std::exception";
+  }
+  method_.reset();
+  return reason;
 }
 
 void RegistrationClient::solve() {
   solved_stamp_ = server_.problem()->header.stamp;
-  server_.submit(align());
+  pcrb_msgs::SubmitPose::Request reply;
+  reply.problem_id = server_.problem()->problem_id;
+  reply.solver_time = std::nan("");
+  reply.scans_used = 1;
+  auto failure = target_failure_;
+  if (!failure) {
+    failure = failureOf([&] { align(reply); });
+    if (!method_) prepared_stamp_ = ros::Time();  // its successor has no target yet
+  }
+  if (failure) {
+    reply.status = pcrb_msgs::SubmitPose::Request::FAILED;
+    reply.reason = *failure;
+  }
+  server_.submit(reply);
 }
 
-pcrb_msgs::SubmitPose::Request RegistrationClient::align() {
+void RegistrationClient::align(pcrb_msgs::SubmitPose::Request& reply) {
   const auto& problem = server_.problem();
-  pcrb_msgs::SubmitPose::Request request;
-  request.problem_id = problem->problem_id;
-  request.solver_time = std::nan("");
-  request.scans_used = 1;
-  try {
-    if (!target_failure_.empty()) throw pcrb::InvalidProblem(target_failure_);
-    const auto guess = problem->has_guess != 0 ? pcrb::fromMessage(problem->initial_guess)
-                                               : pcrb::Transform::Identity();
-    const auto result = method_->align(pcrb::fromMessage(*server_.source()), guess);
-    request.status = pcrb_msgs::SubmitPose::Request::POSE;
-    request.pose.header = problem->header;
-    request.pose.pose = pcrb::toMessage(result.T_target_source);
-    request.solver_time = result.solver_time;
-    request.reason = result.reason;
-  } catch (const pcrb::Error& error) {
-    request.status = pcrb_msgs::SubmitPose::Request::FAILED;
-    request.reason = error.what();
-  }
-  return request;
+  const auto guess = problem->has_guess != 0 ? pcrb::fromMessage(problem->initial_guess)
+                                             : pcrb::Transform::Identity();
+  const auto result = method_->align(pcrb::fromMessage(*server_.source()), guess);
+  reply.status = pcrb_msgs::SubmitPose::Request::POSE;
+  reply.pose.header = problem->header;
+  reply.pose.pose = pcrb::toMessage(result.T_target_source);
+  reply.solver_time = result.solver_time;
+  reply.reason = result.reason;
 }
 
 }  // namespace pcrb_tools

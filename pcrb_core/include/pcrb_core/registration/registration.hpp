@@ -56,9 +56,15 @@ class Registration {
  protected:
   /// Does the work that depends on the target alone. Both clouds of a method come in double-checked
   /// and relative to one origin near the target's centroid, whatever the data set's coordinates.
+  /// May throw as alignSource() may.
   virtual void prepareTarget(const PointCloud& target) = 0;
 
   /// Aligns a source with the target prepared last; guess and result are relative to its origin.
+  ///
+  /// May throw InvalidProblem (these clouds cannot be aligned) or RegistrationFailed (no answer);
+  /// the object is used again afterwards. Anything else, say std::bad_alloc or an exception of a
+  /// library, passes through align(): registration_node then answers `failed` with its what(), and
+  /// goes on with a new object.
   virtual RegistrationResult alignSource(const PointCloud& source,
                                          const Transform& T_target_source_guess) = 0;
 
