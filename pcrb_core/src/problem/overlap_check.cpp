@@ -15,6 +15,10 @@ namespace {
 /// Published overlaps have four decimals and were computed by an approximate search (DESIGN §3).
 constexpr double kOverlapTolerance = 2e-3;
 
+/// More than an approximate search misses, or than another conversion of the same scans changes:
+/// the overlaps belong to other clouds, another distance, or source and target are exchanged.
+constexpr double kOverlapLimit = 0.05;
+
 /// The first problem of each different pair whose clouds are both readable.
 std::vector<Problem> firstOfPairs(const std::vector<Problem>& problems,
                                   const CloudSummaries& summaries) {
@@ -39,6 +43,7 @@ std::vector<Finding> checkOverlaps(const SequenceFiles& files, const Dataset& da
   const std::size_t checked = std::min(count, pairs.size());
   std::size_t wrong = 0;
   double worst = 0.0;
+  double computed = 0.0;
   const Problem* example = nullptr;
   for (std::size_t i = 0; i < checked; ++i) {
     const Problem& pair = pairs[i * pairs.size() / checked];
@@ -50,15 +55,16 @@ std::vector<Finding> checkOverlaps(const SequenceFiles& files, const Dataset& da
     ++wrong;
     if (difference <= worst) continue;
     worst = difference;
+    computed = overlap;
     example = &pair;
   }
   if (wrong == 0) return {};
-  return {{Severity::kWarning, files.problem_file,
+  return {{worst > kOverlapLimit ? Severity::kError : Severity::kWarning, files.problem_file,
            "the overlap of " + std::to_string(wrong) + " of " + std::to_string(checked) +
                " recomputed pairs differs by up to " + formatFixed(worst, 4) + " (" +
                example->source + " on " + example->target + ": found " +
-               formatFixed(example->overlap, 4) + "; distance " +
-               formatShortest(dataset.overlap_distance) + " m)"}};
+               formatFixed(example->overlap, 4) + ", expected " + formatFixed(computed, 4) +
+               " of these clouds; distance " + formatShortest(dataset.overlap_distance) + " m)"}};
 }
 
 }  // namespace pcrb

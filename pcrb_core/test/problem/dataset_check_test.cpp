@@ -143,13 +143,27 @@ TEST_F(DatasetCheckTest, FindsCloudsThatAreTooFarApartToBeServed) {
       << textOf(check());
 }
 
-TEST_F(DatasetCheckTest, FindsWrongOverlaps) {
+TEST_F(DatasetCheckTest, WarnsOfOverlapsThatAreOffAsApproximateOnesAre) {
   list_.pairs[1].overlap -= 0.01;
   writeList();
   const auto findings = check();
-  EXPECT_TRUE(contains(findings, "the overlap of 1 of 3 recomputed pairs differs by up to 0.01"))
+  EXPECT_EQ(count(findings, Severity::kError), 0U) << textOf(findings);
+  EXPECT_TRUE(contains(findings, "warning: " + files_.problem_file +
+                                     ": the overlap of 1 of 3 recomputed pairs differs by up to "
+                                     "0.01"))
       << textOf(findings);
   EXPECT_TRUE(contains(findings, "PointCloud1.pcd on PointCloud2.pcd")) << textOf(findings);
+}
+
+TEST_F(DatasetCheckTest, OverlapsOfOtherCloudsAreAnError) {
+  list_.pairs[1].overlap -= 0.01;
+  list_.pairs[2].overlap -= 0.06;
+  writeList();
+  const auto findings = check();
+  EXPECT_TRUE(contains(findings, "error: " + files_.problem_file +
+                                     ": the overlap of 2 of 3 recomputed pairs differs by up to "
+                                     "0.06"))
+      << textOf(findings);
 }
 
 TEST_F(DatasetCheckTest, FindsRepeatedPairsAndRows) {

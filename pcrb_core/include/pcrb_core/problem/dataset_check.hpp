@@ -55,7 +55,8 @@ std::vector<Finding> checkClouds(const std::string& folder, int threads, CloudSu
 std::vector<Finding> checkProblems(const SequenceFiles& files, const Dataset& dataset,
                                    const CloudSummaries& summaries);
 
-/// Recomputes the overlap of a sample of pairs, the same for the same file.
+/// Recomputes the overlap of a sample of pairs, the same for the same file: a difference as of the
+/// published, approximate overlaps is a warning, a larger one (0.05) an error.
 ///
 /// @param count  number of different pairs, evenly spread over the file.
 /// @throws InvalidFile  if the problem file is malformed, which checkProblems reports.
