@@ -1,8 +1,8 @@
 #include "pcrb_tools/provenance.hpp"
 
-#include <algorithm>
-#include <system_error>
+#include <filesystem>
 
+#include "file_identity.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
@@ -47,32 +47,23 @@ void Provenance::setParameter(const std::string& name, const std::string& value)
 }
 
 void Provenance::addInput(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(path, error);
-  if (error) throw pcrb::InvalidFile(path, error.message());
-  const auto modified = fs::last_write_time(path, error);
-  if (error) throw pcrb::InvalidFile(path, error.message());
-  inputs_.push_back({fs::path(path).filename().string(), bytes, modified});
+  const std::string identity = fileIdentity(path);
+  if (identity.empty()) throw pcrb::InvalidFile(path, 0, "nothing", "a file to read");
+  inputs_.emplace_back(fs::path(path).filename().string(), identity);
 }
 
 std::string Provenance::text() const {
   std::string text = "# What the file of this name without .yaml was made from.\n";
   text += "tool: " + tool_ + "\nparameters:\n";
   for (const auto& [name, value] : parameters_) text += "  " + name + ": " + quoted(value) + "\n";
-  text += "inputs:  # name: bytes\n";
-  for (const Input& input : inputs_) {
-    text += "  " + quoted(input.name) + ": " + std::to_string(input.bytes) + "\n";
-  }
+  text += "inputs:  # name: bytes, time of writing\n";
+  for (const auto& [name, identity] : inputs_) text += "  " + quoted(name) + ": " + identity + "\n";
   return text;
 }
 
 bool Provenance::isUpToDate(const std::string& output) const {
-  std::error_code error;
-  const auto made = fs::last_write_time(output, error);
-  if (error || !fs::is_regular_file(sideFile(output))) return false;
-  const bool is_newest = std::all_of(inputs_.begin(), inputs_.end(),
-                                     [&](const Input& input) { return input.modified <= made; });
-  return is_newest && pcrb::FileBytes(sideFile(output)).text() == text() + outputLine(output);
+  if (!fs::is_regular_file(output) || !fs::is_regular_file(sideFile(output))) return false;
+  return pcrb::FileBytes(sideFile(output)).text() == text() + outputLine(output);
 }
 
 void Provenance::requireReplaceable(const std::string& output) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -97,6 +98,22 @@ TEST_F(OverlapToolTest, GoesOnFromAJournalWithATornLastLine) {
     EXPECT_EQ(matrix.at(source, 0), 0.125);
     EXPECT_EQ(matrix.at(source, 1), expected.at(source, 1));
   }
+}
+
+TEST_F(OverlapToolTest, AJournalOfOtherCloudsOfTheSameSizesIsBegunAnew) {
+  const std::string cloud = textOf(cloudFile(3));
+  runOverlapTool(options_);
+  std::string journal = textOf(sideFile(output_));
+  journal.resize(journal.find("output_blake2b"));
+  journal += "0 1";
+  for (int i = 1; i < 12; ++i) journal += " 0.125";
+  std::ofstream(output_ + ".partial", std::ios::binary) << journal << "\n";
+  fs::remove(output_);
+  const auto written = fs::last_write_time(cloudFile(3));
+  std::ofstream(cloudFile(3), std::ios::binary) << cloud;
+  fs::last_write_time(cloudFile(3), written - std::chrono::hours(1));  // as `cp -p` leaves it
+  runOverlapTool(options_);
+  EXPECT_NE(pcrb::readOverlapMatrix(output_).at(1, 0), 0.125);
 }
 
 TEST_F(OverlapToolTest, AJournalThatAKillLeftBesideACompleteMatrixIsRemoved) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+
 #include "pcrb_core/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"
@@ -9,6 +12,8 @@
 
 namespace pcrb_tools {
 namespace {
+
+namespace fs = std::filesystem;
 
 class ProvenanceTest : public testing::Test {
  protected:
@@ -27,6 +32,27 @@ TEST_F(ProvenanceTest, AnOutputThatWasRecordedIsUpToDateAndReplaceable) {
   EXPECT_NO_THROW(Provenance::requireReplaceable(output_));
   provenance_.setParameter("kind", "local");
   EXPECT_FALSE(provenance_.isUpToDate(output_));
+}
+
+TEST_F(ProvenanceTest, AnInputOfTheSameSizeButAnotherTimeIsAnotherOneEvenIfItIsOlder) {
+  const std::string input = folder_.file("scan.pcd");
+  pcrb_test::writeFile(input, "one");
+  const auto with_input = [&] {
+    Provenance provenance = provenance_;
+    provenance.addInput(input);
+    return provenance;
+  };
+  pcrb_test::writeFile(output_, "problems");
+  with_input().record(output_);
+  EXPECT_TRUE(with_input().isUpToDate(output_));
+  const std::string text = with_input().text();
+  const auto written = fs::last_write_time(input);
+  pcrb_test::writeFile(input, "two");
+  fs::last_write_time(input, written - std::chrono::hours(1));
+  EXPECT_FALSE(with_input().isUpToDate(output_));
+  EXPECT_NE(with_input().text(), text);
+  fs::last_write_time(input, written);
+  EXPECT_TRUE(with_input().isUpToDate(output_));
 }
 
 TEST_F(ProvenanceTest, AKillBeforeTheRecordLeavesSomethingThatIsMadeAgain) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,8 +9,8 @@ namespace pcrb_tools {
 /// What an output file was made from: tool, parameters (seeds included) and input files. It is kept
 /// as YAML in the side file `<output>.yaml`, by which a rerun sees what is complete and unchanged.
 ///
-/// Inputs count as unchanged if they have the same names and sizes and are no newer than the
-/// output. The side file holds no times, so that the same inputs and seed give the same bytes.
+/// Inputs count as unchanged if their names, sizes and times of writing are the same: an older file
+/// of the same size, as `cp -p` or `tar -x` leaves it, is another one.
 class Provenance {
  public:
   explicit Provenance(std::string tool) : tool_(std::move(tool)) {}
@@ -40,15 +39,9 @@ class Provenance {
   void record(const std::string& output) const;
 
  private:
-  struct Input {
-    std::string name;
-    std::uintmax_t bytes;
-    std::filesystem::file_time_type modified;
-  };
-
   std::string tool_;
   std::vector<std::pair<std::string, std::string>> parameters_;
-  std::vector<Input> inputs_;
+  std::vector<std::pair<std::string, std::string>> inputs_;  ///< name, identity
 };
 
 /// Path of an output's side file.

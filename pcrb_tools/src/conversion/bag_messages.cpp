@@ -3,7 +3,7 @@
 #include <ros/exception.h>
 #include <rosbag/view.h>
 
-#include "conversion/file_identity.hpp"
+#include "file_identity.hpp"
 #include "pcrb_tools/interruption.hpp"
 
 namespace pcrb_tools {

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "conversion/file_identity.hpp"
+#include "file_identity.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/cloud_files.hpp"
 #include "pcrb_core/io/file_bytes.hpp"

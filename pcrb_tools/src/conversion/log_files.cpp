@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "conversion/file_identity.hpp"
+#include "file_identity.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/cloud_files.hpp"
 #include "pcrb_tools/archive_reader.hpp"

@@ -1,4 +1,4 @@
-#include "conversion/file_identity.hpp"
+#include "file_identity.hpp"
 
 #include <sys/stat.h>
 
