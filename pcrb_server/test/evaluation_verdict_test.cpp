@@ -75,13 +75,13 @@ TEST(Judge, FailsForAThresholdOfAnUnknownSequence) {
 }
 
 TEST(JunitReport, KeepsItsTextWhateverCharactersItHas) {
-  JunitReport report = judgeUnfinished("a <b> & \"c\" \x01 \xc3\xa9");
+  JunitReport report = judgeUnfinished("a <b> & \"c\" \x01 \xe9 \xc3\xa9");
   report.printed = "]]> <end>";
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(toXml(report).c_str()), tinyxml2::XML_SUCCESS);
   const auto* suite = document.RootElement();
   const auto* failure = suite->FirstChildElement("testcase")->FirstChildElement("failure");
-  EXPECT_STREQ(failure->GetText(), "a <b> & \"c\" ? \xc3\xa9");
+  EXPECT_STREQ(failure->GetText(), "a <b> & \"c\" \xef\xbf\xbd \xef\xbf\xbd \xc3\xa9");
   EXPECT_STREQ(suite->FirstChildElement("system-out")->GetText(), "]]> <end>");
 }
 

@@ -5,10 +5,12 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "evaluation/some_results.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text_rows.hpp"
@@ -29,17 +31,12 @@ using Rows = std::vector<std::map<std::string, std::string>>;
 Rows readCsv(const std::string& path) {
   const std::string text = read(path);
   pcrb::LineReader lines(text, path);
-  std::string_view line;
-  std::vector<std::string_view> header, fields;
-  lines.next(line);
-  pcrb::splitAt(',', line, header);
+  std::vector<std::string> header, fields;
+  pcrb::nextCsvRow(lines, header);
   Rows rows;
-  while (lines.next(line)) {
-    pcrb::splitAt(',', line, fields);
+  while (pcrb::nextCsvRow(lines, fields)) {
     rows.emplace_back();
-    for (std::size_t i = 0; i < header.size(); ++i) {
-      rows.back()[std::string(header[i])] = fields.at(i);
-    }
+    for (std::size_t i = 0; i < header.size(); ++i) rows.back()[header[i]] = fields.at(i);
   }
   return rows;
 }
@@ -64,6 +61,7 @@ class ReportTest : public ::testing::Test {
       result.error = error * (1.0 + 0.001 * static_cast<double>(i));
       if (i < unanswered) {
         result.outcome = pcrb::Outcome::kTimedOut;
+        result.reason = "found \"3\" points,\nexpected 10";
         result.error = result.initial_misalignment;
         result.position.reset();
         result.orientation.reset();
@@ -214,6 +212,11 @@ TEST_F(ReportTest, ImportsItsOwnExportedResults) {
   ASSERT_NE(imported, rows.end());
   imported->at("method") = "good";
   EXPECT_EQ(*imported, rows[0]);
+  std::set<std::string> reasons;
+  for (auto& row : readCsv(options_.output + "/tables/local_problems.csv")) {
+    if (row["method"] == "results") reasons.insert(row["reason"]);
+  }
+  EXPECT_EQ(reasons, (std::set<std::string>{"", "found \"3\" points,\nexpected 10"}));
 }
 
 TEST_F(ReportTest, ImportsFilesThatSayNoMoreThanIdAndErrorUnderTheNameOfTheirSequence) {
@@ -224,6 +227,17 @@ TEST_F(ReportTest, ImportsFilesThatSayNoMoreThanIdAndErrorUnderTheNameOfTheirSeq
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].at("method") + " " + rows[0].at("sequence"), "my yard_2");
   EXPECT_EQ(rows[0].at("problem"), "13");  // the worst one first
+}
+
+TEST_F(ReportTest, TakesTextThatIsNoUtf8) {
+  options_.runs = {
+      addRun("m\xfc"
+             "de",
+             0.1)};  // the folder's name
+  options_.imports = {addFile("my_yard_local.csv", "id,error,outcome,reason\n1,0.5,failed,\xc9\n")};
+  runReportTool(options_);
+  EXPECT_EQ(readCsv(options_.output + "/tables/local_problems.csv")[0].at("reason"),
+            "\xef\xbf\xbd");
 }
 
 TEST_F(ReportTest, RefusesImportsWithADefectNamingFileAndLine) {

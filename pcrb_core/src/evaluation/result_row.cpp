@@ -6,6 +6,7 @@
 
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/printable_text.hpp"
 
 namespace pcrb {
 
@@ -137,7 +138,7 @@ void bindResult(const Result& result, Statement& statement) {
   statement.bind(result.target);
   statement.bind(result.overlap);
   statement.bind(toString(result.outcome));
-  statement.bind(result.reason);
+  statement.bind(printableText(result.reason));
   statement.bind(result.error);
   statement.bind(result.initial_misalignment);
   statement.bind(result.rotation_error);
@@ -169,7 +170,7 @@ Result readResult(const Statement& row, const std::string& path) try {
   result.target = row.text(column++);
   result.overlap = row.real(column++);
   result.outcome = outcomeFromString(row.text(column++));
-  result.reason = row.text(column++);
+  result.reason = printableText(row.text(column++));  // older stores have it as it came
   result.error = row.real(column++);
   result.initial_misalignment = row.real(column++);
   result.rotation_error = row.real(column++);

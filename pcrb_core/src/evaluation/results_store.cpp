@@ -9,7 +9,9 @@
 #include "evaluation/sqlite.hpp"
 #include "evaluation/writer_lock.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/printable_text.hpp"
 
 namespace pcrb {
 namespace {
@@ -21,17 +23,6 @@ void makeFolder(const std::string& folder) {
   if (error) throw StoreError(folder + ": cannot make this folder: " + error.message());
 }
 
-/// A field of a CSV row, quoted where it must be (RFC 4180).
-void appendCsvField(std::string& line, const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) {
-    line += field;
-    return;
-  }
-  line += '"';
-  for (const char character : field) line.append(character == '"' ? 2 : 1, character);
-  line += '"';
-}
-
 std::string csvLine(const Statement& row) {
   std::string line;
   for (int column = 0; column < row.columns(); ++column) {
@@ -39,7 +30,7 @@ std::string csvLine(const Statement& row) {
     if (row.type(column) == SQLITE_FLOAT) {
       appendShortest(line, row.real(column));
     } else {
-      appendCsvField(line, row.text(column));
+      appendCsvField(line, printableText(row.text(column)));
     }
   }
   return line + '\n';

@@ -340,6 +340,26 @@ TEST_F(ResultsStoreTest, ExportsAllColumnsAsCsvWithEmptyFieldsForNull) {
                 "0.3,0.01,0.2,,,,0,0,,,,,,,,,1700000000.5\n");
 }
 
+TEST_F(ResultsStoreTest, KeepsAndReadsReasonsOfAnyBytesAsPrintableText) {
+  Result odd = minimalResult("1");
+  odd.reason =
+      "\xc9"
+      "chec\x1b";
+  ResultsStore store = writer();
+  store.add(odd);
+  const std::string printable =
+      "\xef\xbf\xbd"
+      "chec\xef\xbf\xbd";
+  runSql(database(), ("UPDATE result SET source = CASE reason WHEN '" + printable +
+                      "' THEN 'kept' ELSE 'other' END, reason = CAST(X'C9636865631B' AS TEXT)")
+                         .c_str());  // as older stores have it
+  EXPECT_EQ(store.results()[0].source, "kept");
+  EXPECT_EQ(store.results()[0].reason, printable);
+  store.exportCsv();
+  EXPECT_NE(readFile(run() + "/results.csv").find(",timed_out," + printable + ",0.3,"),
+            std::string::npos);
+}
+
 TEST_F(ResultsStoreTest, MovesWithWhatItHolds) {
   ResultsStore first = writer();
   ResultsStore second = std::move(first);

@@ -23,7 +23,7 @@ struct JunitReport {
   std::size_t failures() const;
 };
 
-/// The file's text: UTF-8, characters that XML cannot hold replaced by `?`.
+/// The file's text, all that comes from others made printableText().
 std::string toXml(const JunitReport& report);
 
 }  // namespace pcrb

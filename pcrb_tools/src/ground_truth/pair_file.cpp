@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text_rows.hpp"
@@ -15,19 +16,15 @@ constexpr std::string_view kPublishedHeader = "misalignment_m,tx,ty,tz,qx,qy,qz,
 constexpr std::string_view kOwnColumns = ",source,target,reason";
 constexpr std::size_t kNumbers = 8;  // columns
 
-/// A field of a CSV row, quoted (RFC 4180).
-std::string quotedField(const std::string& text) {
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + "\"";
-}
-
 void addNames(PairFile& file, const PairNames& pair, const std::string& remark) {
-  file.text += "," + quotedField(pair.source) + "," + quotedField(pair.target) + "," +
-               quotedField(remark) + "\n";
+  for (const std::string& field : {pair.source, pair.target, remark}) {
+    file.text += ',';
+    pcrb::appendCsvField(file.text, field);
+  }
+  file.text += '\n';
 }
 
-void readRow(const pcrb::LineReader& lines, const std::vector<std::string_view>& fields,
+void readRow(const pcrb::LineReader& lines, const std::vector<std::string>& fields,
              PairFile& file) {
   if (fields.size() < kNumbers) {
     lines.fail(std::to_string(fields.size()) + " fields", "at least 8");
@@ -86,11 +83,8 @@ PairFile readPairFile(const std::string& path) {
     throw pcrb::InvalidFile(path, 1, has_header ? pcrb::inQuotes(line) : "nothing",
                             "the header " + std::string(kPublishedHeader));
   }
-  std::vector<std::string_view> fields;
-  while (lines.next(line)) {
-    pcrb::splitAt(',', line, fields);
-    readRow(lines, fields, file);
-  }
+  std::vector<std::string> fields;
+  while (pcrb::nextCsvRow(lines, fields)) readRow(lines, fields, file);
   return file;
 }
 

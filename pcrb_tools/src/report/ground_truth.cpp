@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text_rows.hpp"
@@ -15,10 +16,8 @@ std::vector<GroundTruth> readGroundTruth(const std::string& path) {
   constexpr const char* kExpected = "columns data_set, sequence, mean and stddev";
   const pcrb::FileBytes file(path);
   pcrb::LineReader lines(file.text(), path);
-  std::string_view line;
-  std::vector<std::string_view> header, row;
-  if (!lines.next(line)) throw pcrb::InvalidFile(path, 1, "nothing", kExpected);
-  pcrb::splitAt(',', line, header);
+  std::vector<std::string> header, row;
+  if (!pcrb::nextCsvRow(lines, header)) throw pcrb::InvalidFile(path, 1, "nothing", kExpected);
   std::array<std::size_t, 4> places{};
   const std::array<const char*, 4> names{"data_set", "sequence", "mean", "stddev"};
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -34,13 +33,12 @@ std::vector<GroundTruth> readGroundTruth(const std::string& path) {
     return *value;
   };
   std::vector<GroundTruth> accuracies;
-  while (lines.next(line)) {
-    pcrb::splitAt(',', line, row);
+  while (pcrb::nextCsvRow(lines, row)) {
     if (row.size() != header.size()) {
       lines.fail(std::to_string(row.size()) + " fields", std::to_string(header.size()));
     }
-    accuracies.push_back({std::string(row[places[0]]), std::string(row[places[1]]),
-                          length(row[places[2]]), length(row[places[3]])});
+    accuracies.push_back(
+        {row[places[0]], row[places[1]], length(row[places[2]]), length(row[places[3]])});
   }
   return accuracies;
 }

@@ -7,15 +7,17 @@
 #include <map>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/printable_text.hpp"
 #include "pcrb_core/io/text_rows.hpp"
 #include "report/catalog.hpp"
 
 namespace pcrb_tools {
 namespace {
 
-using Fields = std::vector<std::string_view>;
+using Fields = std::vector<std::string>;
 
 /// What `<method>_<sequence>_<kind>.csv` says.
 struct FileName {
@@ -40,7 +42,7 @@ class Reader {
 
   void readHeader(const Fields& header) {
     for (std::size_t i = 0; i < header.size(); ++i) {
-      if (!columns_.emplace(std::string(header[i]), i).second) {
+      if (!columns_.emplace(header[i], i).second) {
         lines_.fail("column " + pcrb::inQuotes(header[i]) + " again", "it once");
       }
     }
@@ -89,7 +91,7 @@ class Reader {
 
   std::string text(const std::string& column) const {
     const auto found = columns_.find(column);
-    return found == columns_.end() ? std::string() : std::string(row_->at(found->second));
+    return found == columns_.end() ? std::string() : pcrb::printableText(row_->at(found->second));
   }
 
   std::optional<double> number(const std::string& column, bool is_needed = false) const {
@@ -136,17 +138,14 @@ Import importResults(const std::string& path, const std::string& format) {
   const pcrb::FileBytes file(path);
   pcrb::LineReader lines(file.text(), path);
   Reader reader(lines, name);
-  std::string_view line;
   Fields fields;
-  if (!lines.next(line)) throw pcrb::InvalidFile(path, 1, "nothing", "a header");
-  pcrb::splitAt(',', line, fields);
+  if (!pcrb::nextCsvRow(lines, fields)) {
+    throw pcrb::InvalidFile(path, 1, "nothing", "a header");
+  }
   reader.readHeader(fields);
   if (format == "ppcr") reader.requireExactly({"id", "initial_misalignment", "error"});
   Import import{name.method, path, {}};
-  while (lines.next(line)) {
-    pcrb::splitAt(',', line, fields);
-    import.problems.push_back(reader.readRow(fields));
-  }
+  while (pcrb::nextCsvRow(lines, fields)) import.problems.push_back(reader.readRow(fields));
   if (import.problems.empty()) throw pcrb::InvalidFile(path, 0, "no row", "one per problem");
   return import;
 }

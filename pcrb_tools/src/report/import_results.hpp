@@ -14,7 +14,7 @@ struct Import {
   std::vector<ScoredProblem> problems;
 };
 
-/// Reads a comma-separated file with a header; columns in any order.
+/// Reads a comma-separated file (RFC 4180) with a header; columns in any order.
 ///
 /// `ppcr`: `id,initial_misalignment,error`, and the file's name must be
 /// `<method>_<sequence>_<kind>.csv`. `csv`: columns of results.csv, of which `error` and

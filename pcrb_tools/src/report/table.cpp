@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/number.hpp"
 
 namespace pcrb_tools {
@@ -43,11 +44,9 @@ std::string csvField(const Json& cell) {
   if (cell.is_null()) return "";
   if (cell.is_number_float()) return pcrb::formatShortest(cell.get<double>());
   if (cell.is_number()) return std::to_string(cell.get<std::int64_t>());
-  const std::string text = cell.get<std::string>();
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  return quoted + '"';
+  std::string field;
+  pcrb::appendCsvField(field, cell.get_ref<const std::string&>());
+  return field;
 }
 
 std::string latexEscaped(const std::string& text) {

@@ -119,7 +119,8 @@ class Writer {
     write("summary.csv", toCsv(summary));
     write("report.md", markdown_);
     write("report.tex", latex_);
-    write("report.json", json_.dump(1) + "\n");
+    constexpr auto kReplace = Json::error_handler_t::replace;  // names of files may be any bytes
+    write("report.json", json_.dump(1, ' ', false, kReplace) + "\n");
   }
 
  private:

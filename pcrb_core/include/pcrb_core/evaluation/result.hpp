@@ -37,7 +37,7 @@ struct Result {
   std::string target;
   double overlap = 0.0;
   Outcome outcome = Outcome::kReplied;
-  std::string reason;
+  std::string reason;  ///< a client's words; the store keeps their printableText()
   double error = 0.0;
   double initial_misalignment = 0.0;
   double rotation_error = 0.0;        ///< rad
