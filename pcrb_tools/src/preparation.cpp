@@ -97,14 +97,26 @@ class Preparation {
 
   void convert() {
     for (const auto& log : logs_) {
-      try {
-        out_ << formatReport(convertLog(log, options_)) << std::flush;
-      } catch (const pcrb::InvalidFile& error) {
-        throw pcrb::InvalidFile(log.data_set + "/" + log.sequence,
-                                std::string(error.what()) +
-                                    "; mend this log, or name the sequences to prepare without it, "
-                                    "and run again: what is complete is kept");
-      }
+      const ConversionReport report = convert(log);
+      out_ << formatReport(report) << std::flush;
+      if (report.others.empty()) continue;
+      // The stages to come take all clouds of the folder.
+      throw pcrb::InvalidFile(folder(log), 0,
+                              std::to_string(report.others.size()) +
+                                  " clouds that were not made of this log, the first is " +
+                                  report.others.front(),
+                              "none; move them away and run again");
+    }
+  }
+
+  ConversionReport convert(const LogSequence& log) const {
+    try {
+      return convertLog(log, options_);
+    } catch (const pcrb::InvalidFile& error) {
+      throw pcrb::InvalidFile(log.data_set + "/" + log.sequence,
+                              std::string(error.what()) +
+                                  "; mend this log, or name the sequences to prepare without it, "
+                                  "and run again: what is complete is kept");
     }
   }
 

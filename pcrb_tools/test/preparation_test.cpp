@@ -160,6 +160,27 @@ TEST_F(Preparation, AMapThatWasThereBeforeIsKept) {
   EXPECT_FALSE(pcrb::readProblemFile(made("planetary_map_local.txt")).empty());
 }
 
+TEST_F(Preparation, CloudsThatAreNotOfTheLogStopItBeforeTheyGetIntoProblems) {
+  options_.last = PrepareStage::kConvert;
+  ASSERT_TRUE(prepare());
+  fs::copy_file(made("box_met/box_met_002.pcd"), made("box_met/mine.pcd"));
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, prepare(),
+                    "planetary/box_met: found 1 clouds that were not made of this log, the first "
+                    "is mine.pcd");
+}
+
+TEST_F(Preparation, ALogWithFewerScansLeavesNoCloudOfTheEarlierRunInTheProblems) {
+  options_.sequences = {"box_met"};
+  ASSERT_TRUE(prepare());
+  fs::remove(folder_.file("logs/planetary/box_met/box_met_005.xyz"));
+  ASSERT_TRUE(prepare()) << text_;
+  EXPECT_FALSE(fs::exists(made("box_met/box_met_005.pcd")));
+  for (const auto& problem : pcrb::readProblemFile(made("box_met_local.txt"))) {
+    EXPECT_NE(problem.source, "box_met_005.pcd");
+    EXPECT_NE(problem.target, "box_met_005.pcd");
+  }
+}
+
 TEST_F(Preparation, SequencesAreSelectedByAnyOfTheirNamesOnce) {
   options_.last = PrepareStage::kConvert;
   options_.sequences = {"box_met", "planetary/box_met"};

@@ -47,7 +47,7 @@ struct PrepareOptions {
 /// Prepares data sets: converts the logs, builds the planetary map, computes overlaps, draws
 /// problems, checks. What is complete and unchanged is kept, so a run goes on where an earlier one
 /// was stopped or killed. Maps, matrices and problem files of somebody else's, e.g. the published
-/// ones, are kept and said to be.
+/// ones, are kept and said to be; clouds of somebody else's in a sequence's folder are an error.
 ///
 /// @return  whether the check found no error.
 /// @throws pcrb::Error  when a stage fails; what is complete stays.

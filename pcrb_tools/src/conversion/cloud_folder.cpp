@@ -107,8 +107,11 @@ void CloudFolder::readRecords() {
   while (lines.next(line)) {
     pcrb::splitAt('\t', line, fields);
     pcrb::PointCounts counts;
-    // A run that was killed may have left a part of a row: its cloud is made again.
-    if (fields.size() != kRecordFields || !parseCounts(&fields[3], counts)) continue;
+    // A name alone, or a part of a row, is of a run that was killed: its cloud is made again.
+    if (fields.size() != kRecordFields || !parseCounts(&fields[3], counts)) {
+      records_[std::string(fields[0])] = {};
+      continue;
+    }
     records_[std::string(fields[0])] = {std::string(fields[1]), std::string(fields[2]), counts};
   }
   const bool cut = bytes.size() > 0 && bytes.text().back() != '\n';
@@ -123,24 +126,71 @@ void CloudFolder::clearTemporaryFiles() const {
 
 std::optional<pcrb::PointCounts> CloudFolder::kept(const std::string& name,
                                                    const std::string& fingerprint) const {
-  const auto found = records_.find(name);
-  if (found == records_.end() || found->second.fingerprint != fingerprint) return std::nullopt;
-  const std::string identity = fileIdentity((fs::path(path_) / name).string());
-  if (identity.empty() || identity != found->second.file_identity) return std::nullopt;
-  return found->second.counts;
+  const auto found = find(name);
+  if (!found || found->fingerprint != fingerprint) return std::nullopt;
+  const std::string identity = fileIdentity(fileOf(name));
+  if (identity.empty() || identity != found->file_identity) return std::nullopt;
+  return found->counts;
+}
+
+void CloudFolder::requireReplaceable(const std::string& name) const {
+  constexpr const char* kWayOn =
+      "; move it away, or replace it with the converter's --force (~force of a node)";
+  const std::string file = fileOf(name);
+  const std::string identity = fileIdentity(file);
+  if (identity.empty()) return;
+  const auto found = find(name);
+  if (!found) {
+    throw pcrb::InvalidFile(file, std::string("is there and was not made by a converter") + kWayOn);
+  }
+  if (!found->file_identity.empty() && identity != found->file_identity) {
+    throw pcrb::InvalidFile(file, std::string("was changed since it was converted") + kWayOn);
+  }
 }
 
 void CloudFolder::write(const std::string& name, const std::string& fingerprint,
                         const pcrb::DatasetCloud& cloud, const pcrb::PointCounts& counts) {
-  const std::string file = (fs::path(path_) / name).string();
-  pcrb::writePcd(file, cloud);
-  const std::string row =
-      name + '\t' + fingerprint + '\t' + fileIdentity(file) + '\t' + formatCounts(counts) + '\n';
+  record(name, {});  // after a kill, a cloud without its row is known to be of a conversion
+  pcrb::writePcd(fileOf(name), cloud);
+  record(name, {fingerprint, fileIdentity(fileOf(name)), counts});
+}
+
+std::string CloudFolder::fileOf(const std::string& name) const {
+  return (fs::path(path_) / name).string();
+}
+
+std::optional<CloudFolder::Record> CloudFolder::find(const std::string& name) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = records_.find(name);
+  return found == records_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void CloudFolder::record(const std::string& name, const Record& record) {
+  std::string row = name;
+  if (!record.file_identity.empty()) {
+    row += '\t' + record.fingerprint + '\t' + record.file_identity + '\t' +
+           formatCounts(record.counts);
+  }
+  row += '\n';
   const std::lock_guard<std::mutex> lock(mutex_);
   // One write: after a kill there is a whole row or, at worst, a last one that is cut.
   if (::write(descriptor_, row.data(), row.size()) != static_cast<ssize_t>(row.size())) {
     throwSystemError(path_, "record a cloud");
   }
+  records_[name] = record;
+}
+
+std::vector<std::string> CloudFolder::removeStale(const std::set<std::string>& names) {
+  std::vector<std::string> removed;
+  for (const auto& name : othersThan(names)) {
+    const auto found = find(name);
+    if (!found || found->file_identity != fileIdentity(fileOf(name))) continue;
+    std::error_code error;
+    fs::remove(fileOf(name), error);
+    if (error) throw pcrb::InvalidFile(fileOf(name), "cannot be removed: " + error.message());
+    removed.push_back(name);
+  }
+  return removed;
 }
 
 std::vector<std::string> CloudFolder::othersThan(const std::set<std::string>& names) const {

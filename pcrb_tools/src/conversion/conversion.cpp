@@ -11,7 +11,7 @@ namespace pcrb_tools {
 namespace {
 
 /// Part of every fingerprint: raise it when the same log gives other bytes.
-constexpr const char* kConverterVersion = "1";
+constexpr const char* kConverterVersion = "2";
 
 }  // namespace
 
@@ -19,7 +19,8 @@ Conversion::Conversion(const ConversionRequest& request, const std::string& sequ
                        std::size_t total_scans)
     : folder_(request.root, request.data_set, sequence),
       progress_(sequence, "scans", total_scans),
-      drop_when_full_(request.drop_when_full),
+      live_(request.live),
+      force_(request.force),
       workers_(request.threads, request.max_waiting > 0
                                     ? request.max_waiting
                                     : static_cast<std::size_t>(request.threads)) {
@@ -28,16 +29,16 @@ Conversion::Conversion(const ConversionRequest& request, const std::string& sequ
 
 bool Conversion::wants(const std::string& cloud_name, const std::string& origin) {
   const std::string fingerprint = fingerprintOf(kConverterVersion + ('\n' + origin));
-  const auto kept = folder_.kept(cloud_name, fingerprint);
+  std::optional<pcrb::PointCounts> kept;
+  if (!live_) kept = folder_.kept(cloud_name, fingerprint);
+  if (!kept && !force_) folder_.requireReplaceable(cloud_name);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!fingerprints_.emplace(cloud_name, fingerprint).second) {
     throw pcrb::InvalidFile(cloud_name, 0, "a second scan for this cloud", "one");
   }
   ++report_.scans_read;
   if (!kept) return true;
-  report_.points += *kept;
-  report_.written.insert(cloud_name);
-  ++report_.scans_kept;
+  done_[cloud_name] = {*kept, true};
   progress_.keep(1);
   return false;
 }
@@ -47,23 +48,39 @@ WorkerPool::Job Conversion::jobFor(const std::string& cloud_name, Make make) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::string fingerprint = fingerprints_.at(cloud_name);
   return [this, cloud_name, fingerprint, make = std::move(make)] {
-    const ConvertedScan scan = make();
-    folder_.write(cloud_name, fingerprint, scan.cloud, scan.counts);
-    const std::lock_guard<std::mutex> report_lock(mutex_);
-    report_.points += scan.counts;
-    report_.written.insert(cloud_name);
-    progress_.add(1);
+    makeCloud(cloud_name, fingerprint, make);
   };
+}
+
+void Conversion::makeCloud(const std::string& cloud_name, const std::string& fingerprint,
+                           const Make& make) {
+  const ConvertedScan scan = make();
+  const bool is_empty = scan.cloud.points.empty();  // no stage after this one could use it
+  if (!is_empty) folder_.write(cloud_name, fingerprint, scan.cloud, scan.counts);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_empty) {
+    report_.dropped["without a valid point"].push_back(cloud_name);
+  } else {
+    done_[cloud_name] = {scan.counts, false};
+  }
+  progress_.add(1);
 }
 
 void Conversion::add(const std::string& cloud_name, Make make) {
   WorkerPool::Job job = jobFor(cloud_name, std::move(make));
-  if (!drop_when_full_) {
+  if (!live_) {
     workers_.submit(std::move(job));
   } else if (!workers_.trySubmit(job)) {
     const std::lock_guard<std::mutex> lock(mutex_);
     report_.dropped["came faster than it could be converted"].push_back(cloud_name);
   }
+}
+
+void Conversion::takeBack(const std::string& cloud_name) {
+  workers_.finish();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  fingerprints_.erase(cloud_name);
+  done_.erase(cloud_name);
 }
 
 void Conversion::drop(const std::string& scan_name, const std::string& reason) {
@@ -73,17 +90,33 @@ void Conversion::drop(const std::string& scan_name, const std::string& reason) {
   progress_.add(1);
 }
 
+void Conversion::noteGoingBack() {
+  if (!went_back_) note("the stamps went back: what was published again was converted once");
+  went_back_ = true;
+}
+
+void Conversion::summarize() {
+  for (const auto& [name, done] : done_) {
+    report_.written.insert(name);
+    report_.points += done.counts;
+    if (done.kept) ++report_.scans_kept;
+  }
+}
+
 ConversionReport Conversion::finish() {
   workers_.finish();
   Interruption::check();
   progress_.finish();
+  summarize();
   if (report_.written.empty()) {
     throw pcrb::InvalidFile(folder_.path(), "no scan became a cloud\n" + formatReport(report_));
   }
-  const auto others = folder_.othersThan(report_.written);
-  if (!others.empty()) {
-    report_.notes.push_back(std::to_string(others.size()) + " other clouds lie in " +
-                            folder_.path() + ", the first is " + others.front());
+  if (!live_) report_.removed = folder_.removeStale(report_.written);
+  report_.others = folder_.othersThan(report_.written);
+  if (!report_.others.empty()) {
+    note(std::to_string(report_.others.size()) + " other clouds lie in " + folder_.path() +
+         ", the first is " + report_.others.front() +
+         (live_ ? "; a live run, which may see a part of a log, removes none" : ""));
   }
   return report_;
 }

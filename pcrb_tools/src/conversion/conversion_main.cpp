@@ -21,6 +21,7 @@ void addConversionOptions(CLI::App& app, ConversionRequest& request, const std::
   app.add_option("--threads", request.threads, "Does not change a byte")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--force", request.force, "Replace clouds that no converter made");
 }
 
 void addSecondsOption(CLI::App& app, const std::string& name, pcrb::Stamp& value,

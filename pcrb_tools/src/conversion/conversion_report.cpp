@@ -36,6 +36,10 @@ std::string formatReport(const ConversionReport& report) {
        << " written";
   if (report.scans_kept > 0) text << " (" << report.scans_kept << " kept from an earlier run)";
   text << ", " << report.scansDropped() << " dropped\n";
+  if (!report.removed.empty()) {
+    text << "  removed, as this run does not make them: " << report.removed.size()
+         << " clouds of earlier runs (" << someOf(report.removed) << ")\n";
+  }
   for (const auto& [reason, names] : report.dropped) {
     text << "  dropped, " << reason << ": " << names.size() << " (" << someOf(names) << ")\n";
   }

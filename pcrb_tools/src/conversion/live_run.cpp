@@ -18,6 +18,7 @@ const char* const kLiveParametersHelp = R"(
   data_set          folder of the data set
   threads           (number of processors)
   max_waiting (64)  clouds that may wait to be converted; what comes beyond is dropped and counted
+  force (false)     replace clouds that no converter made
   idle_limit (0)    end when nothing has come for this long after the first message, s; 0 = never)";
 
 bool takeLiveFlag(int& argc, char** argv) {
@@ -36,7 +37,8 @@ LiveOptions readLiveParameters(pcrb::NodeParameters& parameters, ConversionReque
   request.data_set = parameters.string("data_set", request.data_set);
   request.threads = parameters.integer("threads", pcrb::processorCount(), 1, kMostThreads);
   request.max_waiting = static_cast<std::size_t>(parameters.integer("max_waiting", 64, 1, 1 << 20));
-  request.drop_when_full = true;
+  request.force = parameters.boolean("force", false);
+  request.live = true;
   return {parameters.number("idle_limit", 0.0, 0.0, 1e6)};
 }
 

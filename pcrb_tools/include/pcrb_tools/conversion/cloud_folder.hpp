@@ -38,10 +38,18 @@ class CloudFolder {
   std::optional<pcrb::PointCounts> kept(const std::string& name,
                                         const std::string& fingerprint) const;
 
+  /// @throws InvalidFile  if a file of this name is there that is somebody else's: not recorded by
+  ///                      a conversion, or changed since.
+  void requireReplaceable(const std::string& name) const;
+
   /// Writes a cloud, complete or not at all, and records it. Can be called from several threads.
   /// @throws InvalidFile  if it cannot be written completely.
   void write(const std::string& name, const std::string& fingerprint,
              const pcrb::DatasetCloud& cloud, const pcrb::PointCounts& counts);
+
+  /// Removes the clouds that earlier runs recorded, if they are unchanged, other than those named.
+  /// @return  the names of the removed ones.
+  std::vector<std::string> removeStale(const std::set<std::string>& names);
 
   /// Clouds in the folder that are not among the names, in natural order; `box_map.pcd` is not
   /// meant.
@@ -50,17 +58,20 @@ class CloudFolder {
  private:
   struct Record {
     std::string fingerprint;
-    std::string file_identity;  ///< size and time of writing
+    std::string file_identity;  ///< size and time of writing; empty: it was about to be written
     pcrb::PointCounts counts;
   };
 
   void openRecords();
   void readRecords();
   void clearTemporaryFiles() const;
+  std::string fileOf(const std::string& name) const;
+  std::optional<Record> find(const std::string& name) const;
+  void record(const std::string& name, const Record& record);
 
   std::string path_;
   std::map<std::string, Record> records_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   int descriptor_ = -1;
 };
 
