@@ -15,7 +15,7 @@ from std_srvs.srv import Empty, Trigger
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import wait_until
-from pcrb_testing_bridge import BridgeTestCase
+from pcrb_testing_bridge import BridgeTestCase, SlowRobot
 
 MOTION = maths.transform(maths.axis_angle([0.1, -0.3, 1], 0.05), [0.2, -0.1, 0.05])
 
@@ -55,10 +55,10 @@ class BridgeBehaviourTest(BridgeTestCase):
         self.addCleanup(publisher.unregister)
         return publisher
 
-    def answering(self, server, kind=PoseStamped, motion=MOTION, answer=make_answer):
+    def answering(self, server, kind=PoseStamped, motion=MOTION, answer=make_answer, **options):
         """A robot whose answers are of that type."""
         publisher = self.publisher(f'{server.namespace}/robot/pose', kind)
-        return self.robot(server, lambda stamp, T: publisher.publish(answer(kind, stamp, T)), motion)
+        return self.robot(server, lambda stamp, T: publisher.publish(answer(kind, stamp, T)), motion, **options)
 
     def scores(self, server, **parameters):
         """Of a run through the bridge; the robot has been made."""
@@ -66,12 +66,13 @@ class BridgeBehaviourTest(BridgeTestCase):
         self.assertEqual({row['outcome'] for row in rows.values()}, {'replied'}, rows)
         return rows
 
-    def assert_motion_is_scored(self, rows):
-        """What is left is MOTION P: the guess is P V, and V is the truth."""
+    def assert_motion_is_scored(self, rows, times=lambda row: 1):
+        """What is left is MOTION P, once or for each scan: the guess is P V, and V is the truth."""
         for row in rows.values():
             problem = self.data.by_id(row['problem_id'])
-            error = maths.error(self.data.source_points(problem), MOTION @ self.data.local_P(problem))
-            self.assertAlmostEqual(row['error'] / error, 1, delta=1e-5)
+            motion = np.linalg.matrix_power(MOTION, times(row))
+            error = maths.error(self.data.source_points(problem), motion @ self.data.local_P(problem))
+            self.assertAlmostEqual(row['error'] / error, 1, delta=1e-5, msg=row)
 
     def test_answers_of_four_types(self):
         for kind in PoseStamped, PoseWithCovarianceStamped, Odometry, TransformStamped:
@@ -79,6 +80,18 @@ class BridgeBehaviourTest(BridgeTestCase):
             robot = self.answering(server, kind)
             self.assert_motion_is_scored(self.scores(server, map_settle=0.0))
             robot.close()
+
+    def test_a_scan_that_a_slow_node_still_has_is_finished_before_the_next_problem(self):
+        """It is slower than answer_limit, so that it has one more scan when its first answer comes."""
+        server = self.localization(subset=4)
+        self.answering(server, make=SlowRobot, work=0.3)
+        self.assert_motion_is_scored(self.scores(server, answer_limit=0.15))
+
+    def test_a_scan_that_a_node_has_at_the_deadline_is_finished_before_the_next_problem(self):
+        server = self.localization(subset=3, time_limit=1.0)
+        self.answering(server, make=SlowRobot, work=0.2)
+        rows = self.scores(server, settle='deadline')
+        self.assert_motion_is_scored(rows, times=lambda row: row['scans_used'])
 
     def test_answers_on_tf_are_composed_through_odom(self):
         server = self.localization()

@@ -1,5 +1,6 @@
 """The bridge and the stand-ins as children of a test, and the stand-ins' algorithms as direct clients."""
 import shutil
+import time
 
 import numpy as np
 import pcrb_testing_data as maths
@@ -58,8 +59,8 @@ class BridgeTestCase(TestCase):
     def bridge(self, server, **parameters):
         return self.start(Bridge(server, **parameters))
 
-    def robot(self, server, publish, motion=np.eye(4)):
-        robot = Robot(server, publish, motion)
+    def robot(self, server, publish, motion=np.eye(4), make=None, **options):
+        robot = (make or Robot)(server, publish, motion, **options)
         self.addCleanup(robot.close)
         return robot
 
@@ -127,3 +128,26 @@ class Robot:
         self.scans.append(cloud)
         if self.initial is not None:
             self.publish(cloud.header.stamp, self.motion @ maths.from_pose(self.initial.pose.pose))
+
+
+class SlowRobot(Robot):
+    """A tracker that works for `work` s on a scan: `motion` moves its pose on from where the scan before left it.
+
+    An initial pose that comes meanwhile is lost, as in nodes that keep their pose in one variable.
+    """
+
+    def __init__(self, server, publish, motion=np.eye(4), work=0.0):
+        self.work = work
+        self.pose = None
+        super().__init__(server, publish, motion)
+
+    def _take_pose(self, message):
+        self.pose = maths.from_pose(message.pose.pose)
+
+    def _take_scan(self, cloud):
+        if self.pose is None:
+            return
+        pose = self.motion @ self.pose
+        time.sleep(self.work)
+        self.pose = pose
+        self.publish(cloud.header.stamp, pose)

@@ -29,7 +29,11 @@ const pcrb::NodeHelp kHelp{"localization_bridge",
   before_problem ('')    service (Empty or Trigger) that is called before each problem
   scan_period (0.1)      s between a problem's scans, from 0.01
   scan_stamps (even)     even: a scan_period apart;  now: the times at which scans are sent
-  answer_limit (1)       s after which the next scan comes without an answer
+  answer_limit (1)       s after which the next scan comes without an answer; twice the time that
+                         the newest answer took, if that is more
+  finish_limit (30)      s, at most, that the node gets after the decision to finish the scans that
+                         it has: until it answers the last, or nothing comes for twice the time of
+                         its slowest answer; no runtime, but part of the server's ready_limit
   max_scans (40)         of a problem
   settle (stable)        first, nth, stable or deadline: which answer counts
   settle_count (3)       answers, for nth and stable

@@ -18,7 +18,7 @@ class ScanSequenceTest : public testing::Test {
     SettlingRule rule;
     rule.kind = kind;
     rule.count = count;
-    return ScanSequence(policy_, rule, std::nullopt, kStart);
+    return ScanSequence(policy_, rule, std::nullopt, kStart, pace_);
   }
 
   static std::int64_t stamp(int scan) { return kFirstStamp + scan * kSpacing; }
@@ -28,13 +28,14 @@ class ScanSequenceTest : public testing::Test {
   }
 
   /// An answer of its own to each scan, so that nothing is stable.
-  static bool answer(ScanSequence& sequence, int scan) {
+  static bool answer(ScanSequence& sequence, double now, int scan) {
     Transform T = Transform::Identity();
     T.translation().x() = scan;
-    return sequence.answerReceived(stamp(scan), T, std::nullopt);
+    return sequence.answerReceived(now, stamp(scan), T, std::nullopt);
   }
 
   ScanPolicy policy_;
+  NodePace pace_;
 };
 
 TEST_F(ScanSequenceTest, SendsTheFirstScanAtOnceAndTheNextAfterAnAnswerAndThePeriod) {
@@ -42,7 +43,7 @@ TEST_F(ScanSequenceTest, SendsTheFirstScanAtOnceAndTheNextAfterAnAnswerAndThePer
   EXPECT_EQ(scans.next(kStart), Action::kSendScan);
   send(scans, kStart);
   EXPECT_EQ(scans.next(kStart + 0.5), Action::kWait);
-  answer(scans, 1);
+  answer(scans, kStart + 0.01, 1);
   EXPECT_EQ(scans.next(kStart + 0.05), Action::kWait);
   EXPECT_NEAR(scans.patience(kStart + 0.05), 0.05, 1e-9);
   EXPECT_EQ(scans.next(kStart + 0.1001), Action::kSendScan);
@@ -52,7 +53,6 @@ TEST_F(ScanSequenceTest, SendsTheNextScanWithoutAnAnswerAfterTheLimit) {
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
   EXPECT_EQ(scans.next(kStart + 0.999), Action::kWait);
-  EXPECT_TRUE(scans.isAwaitingAnswer());
   EXPECT_EQ(scans.next(kStart + 1.0), Action::kSendScan);
 }
 
@@ -64,8 +64,7 @@ TEST_F(ScanSequenceTest, FollowsANodeThatAnswersAScanWhenTheNextComes) {
     now += policy_.answer_limit;
     ASSERT_EQ(scans.next(now), Action::kSendScan);
     send(scans, now);
-    answer(scans, scan);
-    EXPECT_FALSE(scans.isAwaitingAnswer());
+    answer(scans, now, scan);
   }
   EXPECT_EQ(scans.next(now), Action::kSubmit);
   EXPECT_EQ(scans.settling().latest()->scan, 3);
@@ -77,11 +76,11 @@ TEST_F(ScanSequenceTest, SendsOneMoreScanAfterTheLastThatCounts) {
   auto scans = sequence(Kind::kStable);
   send(scans, kStart);
   send(scans, kStart + 1.0);
-  answer(scans, 1);
+  answer(scans, kStart + 1.01, 1);
   ASSERT_EQ(scans.next(kStart + 1.2), Action::kSendScan);
   send(scans, kStart + 1.2);
   EXPECT_EQ(scans.next(kStart + 1.3), Action::kWait);
-  answer(scans, 2);
+  answer(scans, kStart + 1.3, 2);
   EXPECT_EQ(scans.next(kStart + 1.3), Action::kSubmit);
   EXPECT_EQ(scans.settling().latest()->scan, 2);
   EXPECT_EQ(scans.reason(kStart + 1.3), "not settled after 3 scans: the last answer");
@@ -92,7 +91,7 @@ TEST_F(ScanSequenceTest, SendsNoMoreOnceTheLastThatCountsIsAnswered) {
   auto scans = sequence(Kind::kStable);
   for (int scan = 1; scan <= 2; ++scan) {
     send(scans, kStart + scan);
-    answer(scans, scan);
+    answer(scans, kStart + scan, scan);
   }
   EXPECT_EQ(scans.next(kStart + 2.5), Action::kSubmit);
 }
@@ -102,7 +101,7 @@ TEST_F(ScanSequenceTest, TheScanAfterTheLastDoesNotCount) {
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
   send(scans, kStart + 1.0);
-  answer(scans, 2);
+  answer(scans, kStart + 1.01, 2);
   EXPECT_EQ(scans.next(kStart + 1.5), Action::kWait);
   EXPECT_EQ(scans.next(kStart + 2.0), Action::kGiveUp);
 }
@@ -110,9 +109,9 @@ TEST_F(ScanSequenceTest, TheScanAfterTheLastDoesNotCount) {
 TEST_F(ScanSequenceTest, AtTheDeadlineTheLastAnswerIsSubmitted) {
   auto scans = sequence(Kind::kDeadline);
   send(scans, kStart);
-  answer(scans, 1);
+  answer(scans, kStart + 0.01, 1);
   send(scans, kStart + 8.0);
-  answer(scans, 2);
+  answer(scans, kStart + 8.01, 2);
   EXPECT_EQ(scans.next(kStart + 8.99), Action::kSendScan);
   EXPECT_EQ(scans.next(kStart + 9.0), Action::kSubmit);
   EXPECT_EQ(scans.settling().latest()->scan, 2);
@@ -129,27 +128,117 @@ TEST_F(ScanSequenceTest, ASilentNodeIsGivenUpAtTheDeadlineWithTheReason) {
 TEST_F(ScanSequenceTest, MatchesStampsThatWentThroughMicroseconds) {
   auto scans = sequence(Kind::kFirst);
   scans.scanSent(kStart, kFirstStamp + 123);
-  EXPECT_TRUE(scans.answerReceived(kFirstStamp, Transform::Identity(), std::nullopt));
+  EXPECT_TRUE(scans.answerReceived(kStart, kFirstStamp, Transform::Identity(), std::nullopt));
 }
 
 TEST_F(ScanSequenceTest, RefusesAnswersToScansOfAnotherProblem) {
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
-  EXPECT_FALSE(scans.answerReceived(stamp(0), Transform::Identity(), std::nullopt));
+  EXPECT_FALSE(scans.answerReceived(kStart, stamp(0), Transform::Identity(), std::nullopt));
   EXPECT_EQ(scans.next(kStart + 0.5), Action::kWait);
 }
 
 TEST_F(ScanSequenceTest, MatchesByArrivalWhereStampsSayNothing) {
   policy_.match_by_stamp = false;
   auto scans = sequence(Kind::kNth, 2);
-  EXPECT_FALSE(scans.answerReceived(0, Transform::Identity(), std::nullopt));  // no scan is out
+  EXPECT_FALSE(
+      scans.answerReceived(kStart, 0, Transform::Identity(), std::nullopt));  // no scan is out
   send(scans, kStart);
-  EXPECT_TRUE(scans.answerReceived(0, Transform::Identity(), std::nullopt));
-  EXPECT_TRUE(scans.answerReceived(0, Transform::Identity(), std::nullopt));
+  EXPECT_TRUE(scans.answerReceived(kStart, 0, Transform::Identity(), std::nullopt));
+  EXPECT_TRUE(scans.answerReceived(kStart, 0, Transform::Identity(), std::nullopt));
   EXPECT_EQ(scans.settling().count(), 1);
   send(scans, kStart + 1.0);
-  scans.answerReceived(0, Transform::Identity(), std::nullopt);
+  scans.answerReceived(kStart, 0, Transform::Identity(), std::nullopt);
   EXPECT_EQ(scans.next(kStart + 1.0), Action::kSubmit);
+}
+
+TEST_F(ScanSequenceTest, ANodeFinishesWhenItHasAnsweredTheLastScanNotWithALateAnswerToAnOlderOne) {
+  auto scans = sequence(Kind::kFirst);
+  send(scans, kStart);
+  send(scans, kStart + 1.0);
+  answer(scans, kStart + 1.5, 1);
+  ASSERT_EQ(scans.next(kStart + 1.5), Action::kSubmit);
+  EXPECT_NEAR(scans.timeToFinish(kStart + 1.5), 3.0, 1e-9);
+  answer(scans, kStart + 3.0, 2);
+  EXPECT_EQ(scans.timeToFinish(kStart + 3.0), 0.0);
+}
+
+TEST_F(ScanSequenceTest, ANodeMayFinishAfterTheDeadline) {
+  auto scans = sequence(Kind::kDeadline);
+  send(scans, kStart);
+  answer(scans, kStart + 5.0, 1);
+  send(scans, kStart + 5.1);
+  ASSERT_EQ(scans.next(kStart + 9.0), Action::kSubmit);
+  EXPECT_NEAR(scans.timeToFinish(kStart + 9.0), 6.1, 1e-9);
+}
+
+TEST_F(ScanSequenceTest, ANodeThatNeverAnsweredHasAsLongAgainAsItWasSentScansFor) {
+  auto scans = sequence(Kind::kFirst);
+  for (double now = kStart; now < kStart + 9.0; now += 1.0) send(scans, now);
+  EXPECT_NEAR(scans.timeToFinish(kStart + 9.0), 7.0, 1e-9);
+}
+
+TEST_F(ScanSequenceTest, ANodeThatHeldItsLastScanInVainIsNotWaitedForAgain) {
+  auto first = sequence(Kind::kFirst);
+  send(first, kStart);
+  send(first, kStart + 1.0);
+  answer(first, kStart + 1.1, 1);
+  EXPECT_FALSE(first.paceAtEnd(kStart + 1.2).holdsLastScan());
+  pace_ = first.paceAtEnd(kStart + 1.1 + first.timeToFinish(kStart + 1.1));
+  ASSERT_TRUE(pace_.holdsLastScan());
+
+  auto second = sequence(Kind::kNth);
+  send(second, kStart);
+  send(second, kStart + 3.0);
+  answer(second, kStart + 3.1, 1);
+  EXPECT_EQ(second.timeToFinish(kStart + 3.1), 0.0);
+  EXPECT_NEAR(second.paceAtEnd(kStart + 3.1).latest(), 0.1, 1e-9);
+  answer(second, kStart + 3.2, 2);  // no such node after all
+  EXPECT_FALSE(second.paceAtEnd(kStart + 3.2).holdsLastScan());
+}
+
+TEST_F(ScanSequenceTest, ASilentNodeHoldsMoreThanItsLastScan) {
+  pace_.setHoldsLastScan(true);
+  auto scans = sequence(Kind::kFirst);
+  send(scans, kStart);
+  EXPECT_GT(scans.timeToFinish(kStart + 0.5), 0.0);
+}
+
+TEST_F(ScanSequenceTest, ASlowNodeIsGivenTheTimeThatItNeedsBeforeTheNextScan) {
+  pace_.add(1.5);
+  auto scans = sequence(Kind::kNth);
+  send(scans, kStart);
+  EXPECT_EQ(scans.next(kStart + 2.99), Action::kWait);
+  EXPECT_EQ(scans.next(kStart + 3.0), Action::kSendScan);
+}
+
+TEST_F(ScanSequenceTest, AnEchoOfTheInitialPoseIsNoEndOfWork) {
+  ScanSequence scans(policy_, {}, Transform::Identity(), kStart);
+  send(scans, kStart);
+  scans.answerReceived(kStart + 0.1, stamp(1), Transform::Identity(), std::nullopt);
+  EXPECT_GT(scans.timeToFinish(kStart + 0.1), 0.0);
+  EXPECT_FALSE(scans.paceAtEnd(kStart + 0.1).isKnown());
+}
+
+TEST_F(ScanSequenceTest, WithoutStampsAnAnswerEndsTheWorkOnTheOldestScan) {
+  policy_.match_by_stamp = false;
+  auto scans = sequence(Kind::kFirst);
+  send(scans, kStart);
+  send(scans, kStart + 1.0);
+  scans.answerReceived(kStart + 1.5, 0, Transform::Identity(), std::nullopt);
+  EXPECT_GT(scans.timeToFinish(kStart + 1.5), 0.0);
+  scans.answerReceived(kStart + 3.0, 0, Transform::Identity(), std::nullopt);
+  EXPECT_EQ(scans.timeToFinish(kStart + 3.0), 0.0);
+}
+
+TEST(NodePace, TheSlowestAnswerIsForgottenAfterTenOthers) {
+  NodePace pace;
+  pace.add(15.0);
+  for (int i = 0; i < 9; ++i) pace.add(0.1);
+  EXPECT_EQ(pace.slowest(), 15.0);
+  EXPECT_EQ(pace.latest(), 0.1);
+  pace.add(0.1);
+  EXPECT_EQ(pace.slowest(), 0.1);
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ void readAnswers(NodeParameters& reader, BridgeParameters& parameters) {
   parameters.settle.rotation = reader.number("settle_rotation", 0.002, 1e-12, 4.0);
   parameters.settle.echo_tolerance = reader.number("echo_tolerance", 1e-4, 0.0, 1.0);
   parameters.deadline_fraction = reader.number("deadline_fraction", 0.9, 0.01, 0.99);
+  parameters.finish_limit = reader.number("finish_limit", 30.0, 0.0, kLongTime);
   parameters.scans.period = reader.number("scan_period", 0.1, 0.01, kLongTime);
   parameters.scans.answer_limit =
       reader.number("answer_limit", 1.0, parameters.scans.period, kLongTime);

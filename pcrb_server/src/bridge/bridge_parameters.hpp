@@ -32,6 +32,7 @@ struct BridgeParameters {
   SettlingRule settle;
   ScanPolicy scans;  ///< the deadline is set for each problem
   double deadline_fraction = 0.9;
+  double finish_limit = 30.0;  ///< s that a node gets to finish its scans after the decision
   bool has_even_stamps = true;
   double answer_delay = 0.0;  ///< s, by which the stamps of answers are later than their scans'
 

@@ -126,8 +126,8 @@ void LocalizationBridge::serve() {
   scan_problem_.time_limit = problem_->time_limit.toSec();
   player_.begin(scan_problem_);
   play();
-  letNodeFinish();
   keeper_.endProblem(player_.isAnswered());
+  letNodeFinish();
   player_.end();
 }
 
@@ -252,9 +252,19 @@ void LocalizationBridge::submit(Request request) {
   server_.submit(request);
 }
 
-/// A scan that the node still works on would meet the next problem's initial pose.
+/// A scan that the node still works on would meet the next problem's initial pose, and its outcome
+/// overwrite that.
 void LocalizationBridge::letNodeFinish() {
-  waitFor([this] { return !player_.isAwaitingAnswer() || keeper_.hasLeft(); }, player_.patience());
+  const bool will_be_new =
+      keeper_.needsRestart() || parameters_.restart == BridgeParameters::Restart::kProblem;
+  const auto is_finished = [&] {
+    return will_be_new || keeper_.hasLeft() || server_.isFinished() ||
+           player_.timeToFinish() <= 0.0;
+  };
+  if (waitFor(is_finished, parameters_.finish_limit) || shutdown_.requested()) return;
+  std::cout << "the node under test may still be working on a scan of the last problem after "
+            << parameters_.finish_limit
+            << " s: the next one may start from that scan's pose (~finish_limit)" << std::endl;
 }
 
 }  // namespace pcrb

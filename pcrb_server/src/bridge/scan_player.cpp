@@ -43,7 +43,12 @@ void ScanPlayer::begin(const ScanProblem& problem) {
   inputs_.setScan(problem.source, problem.T_scan_source);
   ScanPolicy policy = parameters_.scans;
   policy.deadline = parameters_.deadline_fraction * problem.time_limit;
-  sequence_.emplace(policy, parameters_.settle, problem.initial_pose, steadyNow());
+  sequence_.emplace(policy, parameters_.settle, problem.initial_pose, steadyNow(), pace_);
+}
+
+void ScanPlayer::end() {
+  pace_ = sequence_->paceAtEnd(steadyNow());
+  sequence_.reset();
 }
 
 ScanSequence::Action ScanPlayer::step() {
@@ -94,7 +99,7 @@ void ScanPlayer::take(const PublishedPose& pose) {
                 "` with `" + parameters_.base_frame + "` and `" + parameters_.map_frame + "`";
     return;
   }
-  sequence_->answerReceived(stamp, *T_map_body, pose.covariance);
+  sequence_->answerReceived(steadyNow(), stamp, *T_map_body, pose.covariance);
 }
 
 bool ScanPlayer::isAnswered() const {

@@ -26,6 +26,9 @@ struct ScanProblem {
   Transform T_base_source() const { return T_base_scan * T_scan_source; }
 };
 
+/// s on a clock that nobody sets.
+double steadyNow();
+
 /// Sends the scans of a problem and takes the node's answers, until they settle.
 class ScanPlayer {
  public:
@@ -35,7 +38,7 @@ class ScanPlayer {
   void begin(const ScanProblem& problem);
 
   /// Poses that come from now on are none of a problem's.
-  void end() { sequence_.reset(); }
+  void end();
 
   /// Sends a scan if one is due; kSubmit and kGiveUp: the problem is decided.
   ScanSequence::Action step();
@@ -46,8 +49,8 @@ class ScanPlayer {
   /// A pose that the node published: an answer, if it belongs to a scan of the problem.
   void take(const PublishedPose& pose);
 
-  /// Whether the scan sent last may still be worked on.
-  bool isAwaitingAnswer() const { return sequence_ && sequence_->isAwaitingAnswer(); }
+  /// s for which the node may still be working on a scan of the problem.
+  double timeToFinish() const { return sequence_->timeToFinish(steadyNow()); }
 
   /// Whether the node said anything about the problem's scans that could be used.
   bool isAnswered() const;
@@ -65,12 +68,10 @@ class ScanPlayer {
   const TfWatch& tf_;
   StampClock& clock_;
   ScanProblem problem_;
+  NodePace pace_;
   std::optional<ScanSequence> sequence_;
   std::string unusable_;  ///< why the newest pose could not be used, else empty
 };
-
-/// s on a clock that nobody sets.
-double steadyNow();
 
 /// The clock's stamp for what is sent now, as ROS has it.
 ros::Time stampNow(StampClock& clock);

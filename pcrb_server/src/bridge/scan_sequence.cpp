@@ -5,9 +5,16 @@
 
 namespace pcrb {
 
+namespace {
+
+constexpr double kPatience = 2.0;  // times as long as an answer took until the next one is late
+
+}  // namespace
+
 ScanSequence::ScanSequence(const ScanPolicy& policy, const SettlingRule& rule,
-                           const std::optional<Transform>& initial_pose, double now)
-    : policy_(policy), rule_(rule), settling_(rule, initial_pose), start_(now) {}
+                           const std::optional<Transform>& initial_pose, double now,
+                           const NodePace& pace)
+    : policy_(policy), rule_(rule), settling_(rule, initial_pose), start_(now), pace_(pace) {}
 
 /// Whether the last scan that counts, and the one after it if it is needed, have been sent.
 bool ScanSequence::isLastScanOut() const {
@@ -21,33 +28,34 @@ bool ScanSequence::isOver(double now) const {
   if (now - start_ >= policy_.deadline) return true;
   if (!isLastScanOut()) return false;
   const auto& latest = settling_.latest();
-  return (latest && latest->scan >= policy_.max_scans) || now - last_sent_ >= policy_.answer_limit;
+  return (latest && latest->scan >= policy_.max_scans) || now - scans_.back().sent >= lateness();
 }
 
-bool ScanSequence::mayBeSent(double now) const {
-  if (stamps_.empty()) return true;
-  if (isLastScanOut()) return false;
-  return now - last_sent_ >= (is_answered_ ? policy_.period : policy_.answer_limit);
+/// s after which a scan without an answer is late.
+double ScanSequence::lateness() const {
+  return std::max(policy_.answer_limit, kPatience * pace_.latest());
+}
+
+/// When the scan after the one sent last is due.
+double ScanSequence::nextScan() const {
+  return scans_.back().sent + (is_answered_ ? policy_.period : lateness());
 }
 
 ScanSequence::Action ScanSequence::next(double now) const {
   if (settling_.isSettled()) return Action::kSubmit;
   if (isOver(now)) return settling_.latest() ? Action::kSubmit : Action::kGiveUp;
-  return mayBeSent(now) ? Action::kSendScan : Action::kWait;
+  if (scans_.empty()) return Action::kSendScan;
+  return !isLastScanOut() && now >= nextScan() ? Action::kSendScan : Action::kWait;
 }
 
 double ScanSequence::patience(double now) const {
-  const double until_deadline = start_ + policy_.deadline - now;
-  if (stamps_.empty()) return 0.0;
-  const double until_scan =
-      last_sent_ + (is_answered_ ? policy_.period : policy_.answer_limit) - now;
-  return std::max(0.0, std::min(until_deadline, until_scan));
+  if (scans_.empty()) return 0.0;
+  return std::max(0.0, std::min(start_ + policy_.deadline, nextScan()) - now);
 }
 
 void ScanSequence::scanSent(double now, std::int64_t stamp) {
-  last_sent_ = now;
   is_answered_ = false;
-  stamps_.push_back(stamp);
+  scans_.push_back({stamp, now});
 }
 
 int ScanSequence::scanOf(std::int64_t stamp) const {
@@ -58,15 +66,44 @@ int ScanSequence::scanOf(std::int64_t stamp) const {
   return 0;
 }
 
-bool ScanSequence::answerReceived(std::int64_t stamp, const Transform& T_map_body,
+bool ScanSequence::answerReceived(double now, std::int64_t stamp, const Transform& T_map_body,
                                   const std::optional<std::array<double, 36>>& covariance) {
   const int scan = scanOf(stamp);
   if (scan == 0) return false;
   is_answered_ = true;
   const bool counts = rule_.kind == SettlingRule::Kind::kDeadline || scan <= policy_.max_scans ||
                       !policy_.match_by_stamp;
-  if (counts) settling_.add({scan, T_map_body, covariance});
+  const bool is_echo_or_old = counts && !settling_.add({scan, T_map_body, covariance});
+  if (!is_echo_or_old) noteAnswer(now, scan);
   return true;
+}
+
+/// Learns from an answer how long the node worked: since it had the scan, and had answered those
+/// before.
+void ScanSequence::noteAnswer(double now, int scan) {
+  // Where stamps say nothing, the oldest scan without an answer is the one that was worked on.
+  if (!policy_.match_by_stamp) scan = std::min(scan, newest_answered_ + 1);
+  if (scan <= newest_answered_) return;
+  if (scan == scansSent()) pace_.setHoldsLastScan(false);
+  const bool came_with_next = pace_.holdsLastScan() && scan < scansSent();
+  pace_.add(now - std::max(last_answered_, scanSentAs(came_with_next ? scan + 1 : scan).sent));
+  newest_answered_ = scan;
+  last_answered_ = now;
+}
+
+double ScanSequence::timeToFinish(double now) const {
+  const bool is_only_held = pace_.holdsLastScan() && newest_answered_ > 0 && unanswered() == 1;
+  if (unanswered() == 0 || is_only_held) return 0.0;
+  const double sent = scans_.back().sent;
+  const double work = pace_.isKnown() ? kPatience * pace_.slowest() : sent - start_;
+  return std::max(0.0, std::max(sent, last_answered_) + std::max(policy_.answer_limit, work) - now);
+}
+
+NodePace ScanSequence::paceAtEnd(double now) const {
+  NodePace pace = pace_;
+  const bool waited_in_vain = unanswered() == 1 && timeToFinish(now) <= 0.0;
+  if (waited_in_vain && newest_answered_ > 0) pace.setHoldsLastScan(true);
+  return pace;
 }
 
 std::string ScanSequence::reason(double now) const {

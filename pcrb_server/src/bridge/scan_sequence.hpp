@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bridge/node_pace.hpp"
 #include "bridge/settling.hpp"
 
 namespace pcrb {
@@ -12,7 +13,7 @@ namespace pcrb {
 /// How one problem's scan is repeated. Times in s.
 struct ScanPolicy {
   double period = 0.1;         ///< least time between two scans
-  double answer_limit = 1.0;   ///< the next scan comes without an answer after this time
+  double answer_limit = 1.0;   ///< least time after which a scan without an answer is late
   int max_scans = 40;          ///< scans whose answers count; not for SettlingRule::kDeadline
   double deadline = 9.0;       ///< from start() to the decision
   bool match_by_stamp = true;  ///< else an answer belongs to the scan sent last
@@ -22,9 +23,10 @@ struct ScanPolicy {
 /// Decides when the scan of one problem is sent again, and when the answer is submitted.
 ///
 /// A node with a queue of one loses what comes while it is busy, so that the next scan waits for an
-/// answer or a limit. A node that collects scans answers scan k only when scan k + 1 comes, so that
-/// one more scan is sent after the last one that counts. Times are of any steady clock, stamps are
-/// ns.
+/// answer, or until that is late: after twice the time that the node took for its newest answer, if
+/// that is more than the limit. A node that collects scans answers scan k only when scan k + 1
+/// comes, so that one more scan is sent after the last one that counts. Times are of any steady
+/// clock, stamps are ns.
 class ScanSequence {
  public:
   enum class Action {
@@ -34,8 +36,9 @@ class ScanSequence {
     kGiveUp   ///< time or scans are over and nothing counts; reason() says so
   };
 
+  /// @param pace  the node's, from the problems before.
   ScanSequence(const ScanPolicy& policy, const SettlingRule& rule,
-               const std::optional<Transform>& initial_pose, double now);
+               const std::optional<Transform>& initial_pose, double now, const NodePace& pace = {});
 
   Action next(double now) const;
 
@@ -46,15 +49,23 @@ class ScanSequence {
 
   /// @param stamp  of the answer.
   /// @return  whether it belongs to a scan of this problem.
-  bool answerReceived(std::int64_t stamp, const Transform& T_map_body,
+  bool answerReceived(double now, std::int64_t stamp, const Transform& T_map_body,
                       const std::optional<std::array<double, 36>>& covariance);
 
+  /// s from `now` for which the node may still be working on a scan, 0 if it has answered the last
+  /// one, or holds that until another comes. A node that never answered anything has as long again
+  /// as it was sent scans for.
+  double timeToFinish(double now) const;
+
+  /// What is known of the node's pace. After timeToFinish() in vain, a node that answered every
+  /// scan but the last one is one that holds it.
+  NodePace paceAtEnd(double now) const;
+
   const Settling& settling() const { return settling_; }
-  int scansSent() const { return static_cast<int>(stamps_.size()); }
-  bool isAwaitingAnswer() const { return scansSent() > 0 && !is_answered_; }
+  int scansSent() const { return static_cast<int>(scans_.size()); }
 
   /// The stamp of a scan, from 1.
-  std::int64_t stampOf(int scan) const { return stamps_[static_cast<std::size_t>(scan - 1)]; }
+  std::int64_t stampOf(int scan) const { return scanSentAs(scan).stamp; }
 
   /// Which scan an answer belongs to, 0 if to none.
   int scanOf(std::int64_t stamp) const;
@@ -63,17 +74,28 @@ class ScanSequence {
   std::string reason(double now) const;
 
  private:
+  struct Scan {
+    std::int64_t stamp;
+    double sent;
+  };
+
+  const Scan& scanSentAs(int scan) const { return scans_[static_cast<std::size_t>(scan - 1)]; }
   bool isLastScanOut() const;
   bool isOver(double now) const;
-  bool mayBeSent(double now) const;
+  double nextScan() const;
+  double lateness() const;
+  void noteAnswer(double now, int scan);
+  int unanswered() const { return scansSent() - newest_answered_; }
 
   ScanPolicy policy_;
   SettlingRule rule_;
   Settling settling_;
   double start_;
-  double last_sent_ = 0.0;
-  bool is_answered_ = false;          ///< whether anything was said since the last scan was sent
-  std::vector<std::int64_t> stamps_;  ///< of the scans sent
+  NodePace pace_;
+  std::vector<Scan> scans_;     ///< sent
+  bool is_answered_ = false;    ///< whether anything was said since the last scan was sent
+  int newest_answered_ = 0;     ///< scan that was answered, an echo excepted, 0 = none
+  double last_answered_ = 0.0;  ///< when that was
 };
 
 }  // namespace pcrb
