@@ -26,6 +26,10 @@ std::string outputLine(const std::string& output) {
   return "output_blake2b: " + pcrb::fileHash(output) + "\n";
 }
 
+bool hasBoth(const std::string& output) {
+  return fs::is_regular_file(output) && fs::is_regular_file(sideFile(output));
+}
+
 /// Removes the temporary files of AtomicFile, `.NAME.PID-N.tmp`, of an output and its side file.
 void clearTemporaryFiles(const fs::path& output) {
   const std::string start = "." + output.filename().string() + ".";
@@ -62,8 +66,11 @@ std::string Provenance::text() const {
 }
 
 bool Provenance::isUpToDate(const std::string& output) const {
-  if (!fs::is_regular_file(output) || !fs::is_regular_file(sideFile(output))) return false;
-  return pcrb::FileBytes(sideFile(output)).text() == text() + outputLine(output);
+  return hasBoth(output) && pcrb::FileBytes(sideFile(output)).text() == text() + outputLine(output);
+}
+
+bool Provenance::isBegun(const std::string& output) const {
+  return hasBoth(output) && pcrb::FileBytes(sideFile(output)).text() == text() + kUnfinished;
 }
 
 void Provenance::requireReplaceable(const std::string& output) {

@@ -13,8 +13,10 @@
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/problem/problem_file.hpp"
 #include "pcrb_tools/conversion/eth_conversion.hpp"
+#include "report/ground_truth.hpp"
 #include "sample_log_support.hpp"
 #include "support/expect_error.hpp"
+#include "support/log_folder.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -125,15 +127,60 @@ TEST_F(WrongGroundTruth, IsEvaluatedOnceAndGoesOnFromItsLastPair) {
   EXPECT_EQ(run(), text);
   EXPECT_EQ(fs::last_write_time(pairs), written) << "evaluated again";
 
-  // What an interruption after the first pair leaves.
+  // What a kill after the first pair leaves; the remark tells that row from one made anew.
   const std::string partial = pairs + ".partial";
-  const std::size_t first_row = complete.find('\n', complete.find('\n') + 1) + 1;
-  pcrb::writeFileAtomically(pairs, complete.substr(0, first_row));
-  fs::rename(pairs, partial);
+  const std::size_t first_row = complete.find('\n', complete.find('\n') + 1);
+  const std::string kept = complete.substr(0, first_row) + "kept";
+  const std::string side = readText(pairs + ".yaml");
+  fs::remove(pairs);
   fs::remove(pairs + ".yaml");
+  pcrb::writeFileAtomically(partial, kept + "\n");
+  pcrb::writeFileAtomically(partial + ".yaml",
+                            side.substr(0, side.find("output_blake2b")) + "unfinished: true\n");
+  EXPECT_EQ(run(), text);
+  EXPECT_EQ(readText(pairs), kept + complete.substr(first_row));
+  EXPECT_FALSE(fs::exists(partial) || fs::exists(partial + ".yaml"));
+
+  // What a kill of a run with another radius leaves.
+  fs::remove(pairs);
+  fs::remove(pairs + ".yaml");
+  pcrb::writeFileAtomically(partial, kept + "\n");
+  pcrb::writeFileAtomically(partial + ".yaml", "unfinished: true\n");
   EXPECT_EQ(run(), text);
   EXPECT_EQ(readText(pairs), complete);
-  EXPECT_FALSE(fs::exists(partial));
+}
+
+TEST_F(WrongGroundTruth, OfPairsThatCannotBeAlignedIsUnknownAndStopsNoOther) {
+  const std::string few =
+      "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\n"
+      "HEIGHT 1\nPOINTS 2\nDATA ascii\n1 2 3\n4 5 6\n";
+  pcrb_test::writeFile(folder_.file("root/eth/apartment/few.pcd"), few);
+  pcrb_test::writeFile(folder_.file("root/eth/hut/few.pcd"), few);
+  const auto problem = [](const std::string& id, const std::string& source,
+                          const std::string& target) {
+    return pcrb::Problem{id, source, target, 0.5, Eigen::Matrix<double, 3, 4>::Identity()};
+  };
+  const std::string a = errors_.begin()->first, b = errors_.rbegin()->first;
+  pcrb::writeProblemFile(
+      folder_.file("root/eth/apartment_local.txt"),
+      {problem("11", "few.pcd", a), problem("12", b, a), problem("13", a, "few.pcd")});
+  pcrb::writeProblemFile(folder_.file("root/eth/hut_local.txt"),
+                         {problem("14", "few.pcd", "few.pcd")});
+  const std::string text = run();
+  EXPECT_NE(text.find("eth/hut: no pair aligned"), std::string::npos) << text;
+  EXPECT_NE(text.find(" m (apartment)"), std::string::npos) << text;
+  const std::string pairs = readText(options_.output + "/pairs/eth_apartment.csv");
+  EXPECT_EQ(readPairFile(options_.output + "/pairs/eth_apartment.csv").failed, 2U);
+  EXPECT_NE(pairs.find(",,,,,,,,few.pcd," + a + ",\"source: found 2 points"), std::string::npos)
+      << pairs;
+  const std::string csv = options_.output + "/ground_truth.csv";
+  EXPECT_NE(readText(csv).find("eth,hut,1,1,0,,,,0\n"), std::string::npos) << readText(csv);
+  const auto floors = readGroundTruth(csv);
+  ASSERT_EQ(floors.size(), 1U);
+  EXPECT_EQ(floors.front().sequence, "apartment");
+
+  options_.sequences = {"eth/hut"};
+  PCRB_EXPECT_ERROR(pcrb::InvalidProblem, run(), "no pair that could be aligned");
 }
 
 TEST(GroundTruthTool, RefusesAFileThatItDidNotMake) {

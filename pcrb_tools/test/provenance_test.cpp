@@ -59,9 +59,13 @@ TEST_F(ProvenanceTest, AKillBeforeTheRecordLeavesSomethingThatIsMadeAgain) {
   provenance_.begin(output_);
   EXPECT_FALSE(provenance_.isUpToDate(output_));
   EXPECT_NO_THROW(Provenance::requireReplaceable(output_));
+  EXPECT_FALSE(provenance_.isBegun(output_)) << "there is none yet";
   pcrb_test::writeFile(output_, "problems");
   EXPECT_FALSE(provenance_.isUpToDate(output_));
   EXPECT_NO_THROW(Provenance::requireReplaceable(output_));
+  EXPECT_TRUE(provenance_.isBegun(output_));
+  provenance_.setParameter("kind", "local");
+  EXPECT_FALSE(provenance_.isBegun(output_));
 }
 
 TEST_F(ProvenanceTest, TheNextRunClearsWhatAKilledOneHasLeft) {

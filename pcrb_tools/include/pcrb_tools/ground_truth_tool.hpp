@@ -31,8 +31,9 @@ struct GroundTruthOptions {
 /// Writes `<output>/pairs/<data set>_<sequence>.csv` (a row per pair; an interrupted run goes on
 /// from its last pair, what is complete and unchanged is kept), then `ground_truth.csv`,
 /// `ground_truth.txt` (which also goes to `out`) and `ground_truth.svg` from them.
-/// @throws pcrb::Error  if a file is not as it should be, a wanted sequence is not there, or a
-///                      sequence has no pair that could be aligned.
+/// A pair that cannot be aligned is counted as failed, its reason is in pairs/.
+/// @throws pcrb::Error  if a file is not as it should be, a wanted sequence is not there, or no
+///                      pair of any sequence could be aligned.
 void runGroundTruthTool(const GroundTruthOptions& options, std::ostream& out);
 
 }  // namespace pcrb_tools

@@ -26,6 +26,10 @@ class Provenance {
   /// Whether the output is there, complete, as it was written, and made from exactly this.
   bool isUpToDate(const std::string& output) const;
 
+  /// Whether the output is there, and begin() was the last to be called for it, with exactly this:
+  /// for one that grows, and is always whole as far as it goes.
+  bool isBegun(const std::string& output) const;
+
   /// @throws pcrb::InvalidFile  if the output is there but is not what a side file says: then
   ///                            somebody else made or changed it and a tool must not replace it.
   static void requireReplaceable(const std::string& output);

@@ -93,7 +93,8 @@ class SequenceEvaluation {
     if (!options_.force) Provenance::requireReplaceable(output_);
     const PairFile file = evaluate();
     provenance_.begin(output_);
-    save(output_, file);
+    pcrb::writeFileAtomically(output_, file.text);
+    provenance_.record(output_);
     fs::remove(partial());
     fs::remove(sideFile(partial()));
     return file;
@@ -102,20 +103,23 @@ class SequenceEvaluation {
  private:
   std::string partial() const { return output_ + ".partial"; }
 
-  void save(const std::string& path, const PairFile& file) const {
-    pcrb::writeFileAtomically(path, file.text);
-    provenance_.record(path);
+  /// What an interrupted run has left of this, else no pair.
+  PairFile resume() const {
+    if (provenance_.isBegun(partial())) return readPairFile(partial());
+    fs::remove(partial());
+    provenance_.begin(partial());
+    return emptyPairFile();
   }
 
   PairFile evaluate() const {
-    PairFile file = provenance_.isUpToDate(partial()) ? readPairFile(partial()) : emptyPairFile();
+    PairFile file = resume();
     Progress progress(files_.sequence, "pairs", pairs_.size());
     progress.keep(file.pairs());
     PairEvaluator evaluator(files_.cloud_folder, radius_, options_.threads);
     while (file.pairs() < pairs_.size()) {
       Interruption::check();
       evaluator.evaluate(pairs_[file.pairs()], file);
-      save(partial(), file);
+      pcrb::writeFileAtomically(partial(), file.text);
       progress.add();
     }
     progress.finish();
@@ -131,11 +135,8 @@ class SequenceEvaluation {
 };
 
 SequenceAccuracy assess(const std::string& data_set, const std::string& sequence, PairFile pairs) {
-  if (pairs.misalignments.empty()) {
-    throw pcrb::InvalidProblem(data_set + "/" + sequence + ": found no pair that could be aligned");
-  }
   SequenceAccuracy result{data_set, sequence, std::move(pairs), {}, false};
-  result.accuracy = pcrb::assessGroundTruth(result.pairs.misalignments);
+  if (result.isKnown()) result.accuracy = pcrb::assessGroundTruth(result.pairs.misalignments);
   return result;
 }
 
@@ -163,6 +164,10 @@ void runGroundTruthTool(const GroundTruthOptions& options, std::ostream& out) {
   for (const SequenceFiles& files : wanted) {
     sequences.push_back(
         assess(files.data_set, files.sequence, SequenceEvaluation(files, options).run()));
+  }
+  if (std::none_of(sequences.begin(), sequences.end(), [](const auto& s) { return s.isKnown(); })) {
+    throw pcrb::InvalidProblem("found no pair that could be aligned (reasons: " + options.output +
+                               "/pairs), expected one at least");
   }
   markWorst(sequences);
   const std::string text = formatText(sequences);

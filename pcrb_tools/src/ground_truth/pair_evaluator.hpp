@@ -17,13 +17,17 @@ class PairEvaluator {
 
   /// Adds the pair's row: PPCR on all points with 10 neighbours, Student's t with ν = 5, no ρ, no
   /// quantile cut; its misalignment is the metric's unnormalized variant of what PPCR moved.
-  /// @throws pcrb::Error  if a cloud cannot be read or has too few points.
+  /// A pair that cannot be aligned, say for too few points, becomes a row with the reason.
+  /// @throws pcrb::InvalidFile  if a cloud cannot be read.
   void evaluate(const PairNames& pair, PairFile& file);
 
  private:
+  void setTarget(const std::string& name);
+  void align(const PairNames& pair, PairFile& file);
+
   std::string folder_;
   std::unique_ptr<pcrb::Registration> method_;
-  std::string target_;  // the method's, a file name
+  std::string target_;  // the method's, a file name; empty without one
   Eigen::Vector3d local_origin_ = Eigen::Vector3d::Zero();
 };
 

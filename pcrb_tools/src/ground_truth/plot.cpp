@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "ground_truth/sequence_accuracy.hpp"
 #include "pcrb_core/io/number.hpp"
@@ -116,8 +117,11 @@ class Panel {
 }  // namespace
 
 std::string plotSvg(const std::vector<SequenceAccuracy>& sequences) {
-  const std::size_t columns = std::min(kColumns, sequences.size());
-  const std::size_t rows = (sequences.size() + kColumns - 1) / kColumns;
+  std::vector<SequenceAccuracy> known;
+  std::copy_if(sequences.begin(), sequences.end(), std::back_inserter(known),
+               [](const SequenceAccuracy& sequence) { return sequence.isKnown(); });
+  const std::size_t columns = std::min(kColumns, known.size());
+  const std::size_t rows = (known.size() + kColumns - 1) / kColumns;
   const std::string width = px(kWidth * static_cast<double>(columns));
   const std::string height = px(kHeight * static_cast<double>(rows));
   std::string text = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 " + width + " " +
@@ -126,11 +130,11 @@ std::string plotSvg(const std::vector<SequenceAccuracy>& sequences) {
                      ".outlier{fill:#d9822b}.mean{stroke:#b02020;stroke-dasharray:4 3}"
                      ".axis{stroke:#333}.gaussian{fill:none;stroke:#222;stroke-width:1.3}</style>\n"
                      "<rect width='100%' height='100%' fill='white'/>\n";
-  for (std::size_t i = 0; i < sequences.size(); ++i) {
+  for (std::size_t i = 0; i < known.size(); ++i) {
     const double left = kWidth * static_cast<double>(i % kColumns);
     const double top = kHeight * static_cast<double>(i / kColumns);
     text += "<g transform='translate(" + px(left) + " " + px(top) + ")'>\n" +
-            Panel(sequences[i]).svg() + "</g>\n";
+            Panel(known[i]).svg() + "</g>\n";
   }
   return text + "</svg>\n";
 }

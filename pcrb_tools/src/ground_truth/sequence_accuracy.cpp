@@ -10,14 +10,17 @@ namespace {
 
 pcrb::TableRow tableRow(const SequenceAccuracy& sequence) {
   const pcrb::Statistics& kept = sequence.accuracy.kept;
+  const auto length = [&](double value) {
+    return sequence.isKnown() ? pcrb::formatFixed(value, 3) : "-";
+  };
   return {sequence.data_set,
           sequence.sequence,
           std::to_string(sequence.pairs.pairs()),
           std::to_string(sequence.pairs.failed),
           std::to_string(sequence.accuracy.outliers),
-          pcrb::formatFixed(kept.median, 3),
-          pcrb::formatFixed(kept.mean, 3),
-          pcrb::formatFixed(kept.stddev, 3)};
+          length(kept.median),
+          length(kept.mean),
+          length(kept.stddev)};
 }
 
 }  // namespace
@@ -25,6 +28,7 @@ pcrb::TableRow tableRow(const SequenceAccuracy& sequence) {
 void markWorst(std::vector<SequenceAccuracy>& sequences) {
   std::map<std::string, SequenceAccuracy*> worst;
   for (SequenceAccuracy& sequence : sequences) {
+    if (!sequence.isKnown()) continue;
     SequenceAccuracy*& known = worst[sequence.data_set];
     if (known == nullptr || sequence.accuracy.kept.mean > known->accuracy.kept.mean) {
       known = &sequence;
@@ -42,7 +46,7 @@ std::string formatCsv(const std::vector<SequenceAccuracy>& sequences) {
             "," + std::to_string(sequence.accuracy.outliers);
     for (const double value : {kept.median, kept.mean, kept.stddev}) {
       text += ",";
-      pcrb::appendShortest(text, value);
+      if (sequence.isKnown()) pcrb::appendShortest(text, value);
     }
     text += sequence.is_worst ? ",1\n" : ",0\n";
   }
@@ -56,6 +60,9 @@ std::string formatText(const std::vector<SequenceAccuracy>& sequences) {
   for (const SequenceAccuracy& sequence : sequences) rows.push_back(tableRow(sequence));
   std::string text = pcrb::alignColumns(rows, kTextColumns) + "\n";
   for (const SequenceAccuracy& sequence : sequences) {
+    if (!sequence.isKnown()) {
+      text += sequence.data_set + "/" + sequence.sequence + ": no pair aligned\n";
+    }
     if (!sequence.is_worst) continue;
     const pcrb::Statistics& kept = sequence.accuracy.kept;
     text += sequence.data_set + ": " + pcrb::formatFixed(kept.mean, 2) + " ± " +

@@ -37,6 +37,7 @@ std::vector<GroundTruth> readGroundTruth(const std::string& path) {
     if (row.size() != header.size()) {
       lines.fail(std::to_string(row.size()) + " fields", std::to_string(header.size()));
     }
+    if (row[places[2]].empty() && row[places[3]].empty()) continue;  // no pair could be aligned
     accuracies.push_back(
         {row[places[0]], row[places[1]], length(row[places[2]]), length(row[places[3]])});
   }

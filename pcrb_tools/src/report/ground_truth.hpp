@@ -14,7 +14,7 @@ struct GroundTruth {
 };
 
 /// Reads the CSV file of evaluate_ground_truth: a header with at least `data_set`, `sequence`,
-/// `mean` and `stddev`.
+/// `mean` and `stddev`. A sequence where both are empty is left out: no pair could be aligned.
 /// @throws pcrb::InvalidFile  with file and line, what was found and what was expected.
 std::vector<GroundTruth> readGroundTruth(const std::string& path);
 
