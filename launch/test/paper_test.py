@@ -41,11 +41,13 @@ class PaperTest(TestCase):
         self.assertEqual(len(summary), 2 * 3)  # two sequences and the total of each method
         self.assertGreater(os.path.getsize(os.path.join(self.run, 'report', 'index.html')), 10000)
         self.check_that_it_is_kept()
+        self.assertEqual([m['method'] for s in self.report()['sections'] for m in s['methods']], ['icp', 'ransac'])
 
     def check_that_it_is_kept(self):
         before = rows(os.path.join(self.run, 'icp'))
-        again = self.paper('--methods', 'icp', '--jobs', '2')
+        again = self.paper('--methods', 'icp', 'icp', '--jobs', '2')
         self.assert_ends_well(again)
+        self.assertEqual(again.output().count('icp, local problems:'), 1)
         self.assertEqual(rows(os.path.join(self.run, 'icp')), before)
         other = self.paper('--methods', 'icp', '--jobs', '2', '--seed', '2')
         self.assert_fails(other, 'seed:=1', 'seed:=2')

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iostream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_tools/batch_tool.hpp"
 #include "pcrb_tools/report/report_tool.hpp"
@@ -37,7 +39,10 @@ std::vector<Experiment> chosen(const std::vector<std::string>& methods) {
       throw pcrb::InvalidParameter("found method `" + method +
                                    "`, expected icp, gicp, ndt, ppcr, ransac, fgr or teaser");
     }
-    experiments.push_back(*found);
+    const bool is_new =
+        std::none_of(experiments.begin(), experiments.end(),
+                     [&](const Experiment& e) { return e.method == found->method; });
+    if (is_new) experiments.push_back(*found);
   }
   return experiments;
 }
@@ -56,6 +61,27 @@ BatchOptions batchOf(const PaperOptions& options, const Experiment& experiment) 
   return batch;
 }
 
+/// Whether a run is there and every problem has its result.
+bool isComplete(const std::string& run) {
+  if (!std::filesystem::exists(run + "/results.sqlite")) return false;
+  const pcrb::ResultsStore store(run, pcrb::ResultsStore::Access::kReadOnly);
+  const auto info = store.runInfo();
+  const auto planned = info.find("problems");
+  return planned != info.end() && planned->second == std::to_string(store.count());
+}
+
+/// The complete runs of all experiments, those of earlier calls too.
+std::vector<std::string> completeRuns(const PaperOptions& options,
+                                      const std::vector<std::string>& failed) {
+  std::vector<std::string> runs;
+  for (const std::string& method : paperMethods()) {
+    const std::string run = options.run + "/" + method;
+    const bool has_failed = std::find(failed.begin(), failed.end(), method) != failed.end();
+    if (!has_failed && isComplete(run)) runs.push_back(run);
+  }
+  return runs;
+}
+
 }  // namespace
 
 std::vector<std::string> paperMethods() {
@@ -65,25 +91,25 @@ std::vector<std::string> paperMethods() {
 }
 
 int runPaperTool(const PaperOptions& options) {
-  ReportOptions report;
-  report.output = options.run + "/report";
-  report.draw_figures = options.draw_figures;
-  std::string failed;
+  std::vector<std::string> failed;
   for (const Experiment& experiment : chosen(options.methods)) {
     std::cout << experiment.method << ", " << experiment.kind << " problems:" << std::endl;
-    const BatchOptions batch = batchOf(options, experiment);
-    if (runBatchTool(batch) == kSuccess) {
-      report.runs.push_back(batch.run);
-    } else {
-      failed += std::string(" ") + experiment.method;
+    if (runBatchTool(batchOf(options, experiment)) != kSuccess) {
+      failed.emplace_back(experiment.method);
     }
   }
+  ReportOptions report;
+  report.runs = completeRuns(options, failed);
+  report.output = options.run + "/report";
+  report.draw_figures = options.draw_figures;
   if (!report.runs.empty()) {
     runReportTool(report);
     std::cout << "report: " << report.output << "/index.html" << std::endl;
   }
   if (failed.empty()) return kSuccess;
-  std::cerr << "not complete, and not in the report:" << failed << std::endl;
+  std::cerr << "not complete, and not in the report:";
+  for (const std::string& method : failed) std::cerr << " " << method;
+  std::cerr << std::endl;
   return kFailure;
 }
 

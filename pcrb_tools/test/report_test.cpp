@@ -164,6 +164,31 @@ TEST_F(ReportTest, WritesTheSameBytesForTheSameInput) {
   for (const auto& [path, text] : first) EXPECT_TRUE(read(path) == text) << path;
 }
 
+TEST_F(ReportTest, RemovesTablesAndFiguresOfTheFormerReportAndNothingElse) {
+  options_.runs = {addRun("good", 0.1), addRun("bad", 0.2)};
+  writeReportData(options_);
+  fs::create_directories(options_.output + "/figures");
+  const auto is_there = [&](const std::string& name) {
+    return fs::exists(options_.output + "/" + name);
+  };
+  for (const std::string name : {"tables/mine.csv", "figures/local_mine.png",
+                                 "figures/local_medians.pdf", "figures/local_histograms_bad.png"}) {
+    std::ofstream(options_.output + "/" + name) << "drawn";
+  }
+  ASSERT_TRUE(is_there("tables/local_comparisons.csv"));
+  options_.runs.pop_back();
+  writeReportData(options_);
+  EXPECT_FALSE(is_there("tables/local_comparisons.csv"));
+  EXPECT_FALSE(is_there("figures/local_medians.pdf"));
+  EXPECT_FALSE(is_there("figures/local_histograms_bad.png"));
+  EXPECT_TRUE(is_there("tables/local_scores.csv"));
+  EXPECT_TRUE(is_there("tables/mine.csv"));
+  EXPECT_TRUE(is_there("figures/local_mine.png"));
+
+  std::ofstream(options_.output + "/report.json") << "{\"sections\": 1}";
+  EXPECT_NO_THROW(writeReportData(options_));
+}
+
 TEST_F(ReportTest, DrawsTheSameFiguresForTheSameInput) {
   if (std::getenv("PCRB_LONG_TESTS") == nullptr) GTEST_SKIP() << "set PCRB_LONG_TESTS=1";
   options_.draw_figures = true;

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
   pcrb_tools::PaperOptions options;
   app.add_option("--root", options.root, "folder of the data sets")->required();
   app.add_option("--run", options.run, "folder of the runs and the report")->required();
-  app.add_option("--methods", options.methods, "some of the seven [all]")
+  app.add_option("--methods", options.methods,
+                 "to run: some of the seven [all]; the report has all that are complete")
       ->check(CLI::IsMember(pcrb_tools::paperMethods()));
   app.add_option("--sequences", options.sequences,
                  "sequences, data sets, or data_set/sequence, separated by blanks")

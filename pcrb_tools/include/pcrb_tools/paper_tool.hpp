@@ -9,7 +9,7 @@ namespace pcrb_tools {
 struct PaperOptions {
   std::string root;                  ///< folder of the data sets
   std::string run;                   ///< folder of the runs, one below it per method
-  std::vector<std::string> methods;  ///< empty = all of the paper
+  std::vector<std::string> methods;  ///< to run; empty = all of the paper
   std::string sequences = "all";
   int subset = 0;            ///< number of problems per method, 0 = all
   int seed = 1;              ///< of the subset
@@ -24,7 +24,7 @@ std::vector<std::string> paperMethods();
 /// Runs the paper's experiments, each method in `<run>/<method>`, then writes `<run>/report`.
 ///
 /// What is complete is kept, what was interrupted goes on. A method that fails does not keep the
-/// others from running; the report is of those that are complete.
+/// others from running; the report is of all that are complete, those of earlier calls too.
 /// @return  exit status: 0 only if every problem of every method has its result and was reported.
 /// @throws pcrb::Error  if a folder holds a run of another configuration, or nothing is complete.
 int runPaperTool(const PaperOptions& options);

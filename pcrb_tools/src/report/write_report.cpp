@@ -7,6 +7,7 @@
 #include "report/charts.hpp"
 #include "report/comparison_tables.hpp"
 #include "report/detail_tables.hpp"
+#include "report/former_files.hpp"
 #include "report/load_entries.hpp"
 #include "report/problem_details.hpp"
 #include "report/published.hpp"
@@ -203,6 +204,7 @@ void writeReportData(const ReportOptions& options) {
   for (Section& section : sections) {
     if (details.size() == 1) addOverlaps(details.begin()->second, section);
   }
+  removeFormerFiles(options.output);
   Writer writer(options);
   for (const Section& section : sections) writer.addSection(section, accuracies);
   writer.finish(summaryTable(sections));

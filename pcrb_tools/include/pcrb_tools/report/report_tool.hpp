@@ -30,7 +30,7 @@ struct ReportOptions {
 ///
 /// Writes `summary.csv`, `report.json`, `report.md`, `report.tex` and `tables/*.csv`; then Python
 /// draws `index.html` and `figures/*` from `report.json` alone. The same input gives the same
-/// bytes.
+/// bytes. Tables and figures of a former report in that folder are removed, other files are not.
 /// @throws pcrb::Error  if a run or file cannot be read or holds nothing, two runs have the same
 ///                      name, an output cannot be written, or drawing fails.
 void runReportTool(const ReportOptions& options);
