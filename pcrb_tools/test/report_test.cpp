@@ -14,6 +14,7 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/problem/problem_file.hpp"
 #include "pcrb_tools/report/report_tool.hpp"
 #include "support/expect_error.hpp"
 #include "support/shared_data.hpp"
@@ -252,6 +253,32 @@ TEST_F(ReportTest, ImportsFilesThatSayNoMoreThanIdAndErrorUnderTheNameOfTheirSeq
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].at("method") + " " + rows[0].at("sequence"), "my yard_2");
   EXPECT_EQ(rows[0].at("problem"), "13");  // the worst one first
+}
+
+TEST_F(ReportTest, TellsMethodFromSequenceByKnownSequencesOrByTheNameGiven) {
+  fs::create_directories(folder_.file("root/rooms/big_hall"));
+  pcrb::Problem problem{"10", "a.pcd", "b.pcd", 0.5, Eigen::Matrix<double, 3, 4>::Identity()};
+  pcrb::writeProblemFile(folder_.file("root/rooms/big_hall_local.txt"), {problem});
+  options_.root = folder_.file("root");
+  options_.with_components = false;
+  const std::string text = "id,error,source\n10,0.5,a.pcd\n";
+  options_.imports = {addFile("fast_gicp_plain_local.csv", text),
+                      addFile("fast_vgicp_plain_local.csv", text),
+                      addFile("my_icp_planetary_map_local.csv", text),
+                      addFile("my_icp_big_hall_local.csv", "id,error\n10,0.5\n"),
+                      addFile("some_icp_yard_2_local.csv", text),
+                      "some_icp=" + addFile("some_icp_yard_3_local.csv", text),
+                      "mine=" + addFile("box_met_local.csv", text),
+                      "mine=" + addFile("results.csv", "id,error,source,sequence\n10,1,a,plain\n")};
+  writeReportData(options_);
+  std::set<std::string> read;
+  for (auto& row : readCsv(options_.output + "/tables/local_problems.csv")) {
+    read.insert(row["method"] + " " + row["sequence"]);
+  }
+  EXPECT_EQ(read,
+            (std::set<std::string>{"fast_gicp plain", "fast_vgicp plain", "my_icp planetary_map",
+                                   "my_icp big_hall", "some icp_yard_2", "some_icp yard_3",
+                                   "mine box_met", "mine plain"}));
 }
 
 TEST_F(ReportTest, TakesTextThatIsNoUtf8) {

@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
   std::vector<std::tuple<double, double>> recall;
   app.add_option("runs", options.runs, "run folders: FOLDER, or NAME=FOLDER to name a method");
   app.add_option("--import", options.imports,
-                 "result files of others, <method>_<sequence>_<kind>.csv");
+                 "result files of others, <method>_<sequence>_<kind>.csv: FILE, or NAME=FILE to "
+                 "name a method");
   app.add_option(
          "--format", options.format,
          "of the imports. ppcr: id,initial_misalignment,error; csv: columns of results.csv, "

@@ -49,9 +49,14 @@ std::size_t publishedPlace(const std::string& sequence) {
   return known == nullptr ? kSequences.size() : static_cast<std::size_t>(known - kSequences.data());
 }
 
-std::string publishedDataSet(const std::string& sequence) {
-  const Sequence* known = find(sequence);
-  return known == nullptr ? "own" : known->data_set;
+std::map<std::string, std::string> knownSequences(const std::string& root) {
+  std::map<std::string, std::string> data_sets;
+  for (const Sequence& sequence : kSequences) data_sets[sequence.name] = sequence.data_set;
+  if (root.empty()) return data_sets;
+  for (const pcrb::SequenceFiles& files : pcrb::findSequences(root)) {
+    data_sets.emplace(files.sequence, files.data_set);
+  }
+  return data_sets;
 }
 
 std::vector<std::string> characteristicsOf(const std::string& root, const std::string& data_set,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,11 @@ namespace pcrb_tools {
 /// Place of a sequence in the paper's tables; those that are not in them come after all that are.
 std::size_t publishedPlace(const std::string& sequence);
 
-/// Data set of a sequence of the paper, else `own`.
-std::string publishedDataSet(const std::string& sequence);
+/// Data sets by their sequences: those of the paper, and of the problem files below `root`.
+///
+/// @param root  empty = only what is built in.
+/// @throws pcrb::InvalidFile  if the root is no readable folder.
+std::map<std::string, std::string> knownSequences(const std::string& root);
 
 /// What a sequence has in common with others, to group results by: environment and structure of the
 /// paper's sequences (this suite's own assignment), sensor and characteristics of its data set

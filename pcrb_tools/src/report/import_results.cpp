@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <map>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/csv.hpp"
@@ -12,12 +11,12 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/printable_text.hpp"
 #include "pcrb_core/io/text_rows.hpp"
-#include "report/catalog.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 using Fields = std::vector<std::string>;
+using DataSets = std::map<std::string, std::string>;
 
 /// What `<method>_<sequence>_<kind>.csv` says.
 struct FileName {
@@ -26,19 +25,42 @@ struct FileName {
   std::string kind;
 };
 
-FileName parseFileName(const std::string& path) {
+/// Where the sequence begins in `<method>_<sequence>`, or, if the method is given, `<sequence>`;
+/// the text's size if nowhere.
+std::size_t sequencePlace(const std::string& text, const std::string& method,
+                          const DataSets& data_sets) {
+  if (!method.empty() && data_sets.count(text) > 0) return 0;
+  std::size_t place = text.size();
+  for (const auto& [sequence, data_set] : data_sets) {
+    const std::string ending = "_" + sequence;
+    if (text.size() <= ending.size()) continue;
+    const std::size_t start = text.size() - ending.size();
+    if (text.compare(start, ending.size(), ending) == 0) place = std::min(place, start + 1);
+  }
+  if (place < text.size()) return place;
+  if (!method.empty() && text.rfind(method + "_", 0) == 0) return method.size() + 1;
+  const std::size_t first = text.find('_');
+  return first == 0 || first == std::string::npos ? text.size() : first + 1;
+}
+
+FileName parseFileName(const std::string& path, const std::string& method,
+                       const DataSets& data_sets) {
   const std::string stem = std::filesystem::path(path).stem().string();
-  const std::size_t first = stem.find('_'), last = stem.rfind('_');
-  if (first == std::string::npos || first == last) return {stem, "", ""};
-  const std::string kind = stem.substr(last + 1);
-  if (kind != "local" && kind != "global") return {stem, "", ""};
-  return {stem.substr(0, first), stem.substr(first + 1, last - first - 1), kind};
+  const FileName unknown{method.empty() ? stem : method, "", ""};
+  const std::size_t last = stem.rfind('_');
+  if (last == std::string::npos) return unknown;
+  const std::string kind = stem.substr(last + 1), text = stem.substr(0, last);
+  if (kind != "local" && kind != "global") return unknown;
+  const std::size_t place = sequencePlace(text, method, data_sets);
+  if (place == text.size()) return unknown;
+  return {method.empty() ? text.substr(0, place - 1) : method, text.substr(place), kind};
 }
 
 /// Reads the fields of one file's rows.
 class Reader {
  public:
-  Reader(const pcrb::LineReader& lines, FileName name) : lines_(lines), name_(std::move(name)) {}
+  Reader(const pcrb::LineReader& lines, FileName name, const DataSets& data_sets)
+      : lines_(lines), name_(std::move(name)), data_sets_(data_sets) {}
 
   void readHeader(const Fields& header) {
     for (std::size_t i = 0; i < header.size(); ++i) {
@@ -63,6 +85,9 @@ class Reader {
       lines_.fail(std::to_string(columns_.size()) + " columns", "id,initial_misalignment,error");
     }
   }
+
+  /// The sequence of all rows, if there is no column for it.
+  std::string sequence() const { return has("sequence") ? std::string() : name_.sequence; }
 
   ScoredProblem readRow(const Fields& row) {
     if (row.size() != columns_.size()) {
@@ -109,10 +134,15 @@ class Reader {
     key.problem_id = text(id_);
     if (key.problem_id.empty()) lines_.fail("an empty field", "an id in column `" + id_ + "`");
     key.sequence = has("sequence") ? text("sequence") : name_.sequence;
-    key.data_set = has("data_set") ? text("data_set") : publishedDataSet(key.sequence);
+    key.data_set = has("data_set") ? text("data_set") : dataSetOf(key.sequence);
     const std::string kind = has("kind") ? text("kind") : name_.kind;
     named([&] { key.kind = kind.empty() ? pcrb::Kind::kLocal : pcrb::kindFromString(kind); });
     return key;
+  }
+
+  std::string dataSetOf(const std::string& sequence) const {
+    const auto known = data_sets_.find(sequence);
+    return known == data_sets_.end() ? "own" : known->second;
   }
 
   void named(const std::function<void()>& action) const {
@@ -126,6 +156,7 @@ class Reader {
 
   const pcrb::LineReader& lines_;
   FileName name_;
+  const DataSets& data_sets_;
   std::map<std::string, std::size_t> columns_;
   std::string id_;
   const Fields* row_ = nullptr;
@@ -133,18 +164,19 @@ class Reader {
 
 }  // namespace
 
-Import importResults(const std::string& path, const std::string& format) {
-  const FileName name = parseFileName(path);
+Import importResults(const std::string& method, const std::string& path, const std::string& format,
+                     const DataSets& data_sets) {
+  const FileName name = parseFileName(path, method, data_sets);
   const pcrb::FileBytes file(path);
   pcrb::LineReader lines(file.text(), path);
-  Reader reader(lines, name);
+  Reader reader(lines, name, data_sets);
   Fields fields;
   if (!pcrb::nextCsvRow(lines, fields)) {
     throw pcrb::InvalidFile(path, 1, "nothing", "a header");
   }
   reader.readHeader(fields);
   if (format == "ppcr") reader.requireExactly({"id", "initial_misalignment", "error"});
-  Import import{name.method, path, {}};
+  Import import{name.method, reader.sequence(), path, {}};
   while (pcrb::nextCsvRow(lines, fields)) import.problems.push_back(reader.readRow(fields));
   if (import.problems.empty()) throw pcrb::InvalidFile(path, 0, "no row", "one per problem");
   return import;

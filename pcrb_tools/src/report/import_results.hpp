@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@ namespace pcrb_tools {
 /// A result file that this suite has not written.
 struct Import {
   std::string method;
+  std::string sequence;  ///< that the file's name says; empty if its rows say it
   std::string path;
   std::vector<ScoredProblem> problems;
 };
@@ -22,7 +24,13 @@ struct Import {
 /// `data_set` come from the file's name where there is no such column. All problems count as
 /// replied to where there is no `outcome`. Columns of other names are ignored in `csv` only.
 ///
+/// In the file's name, the sequence is the longest known one that stands before `_<kind>`; else
+/// what stands behind the method's name, or behind the first `_` without such a beginning.
+///
+/// @param method  empty = from the file's name.
+/// @param data_sets  of known sequences; the data set of others is `own`.
 /// @throws pcrb::InvalidFile  with file and line, what was found and what was expected.
-Import importResults(const std::string& path, const std::string& format);
+Import importResults(const std::string& method, const std::string& path, const std::string& format,
+                     const std::map<std::string, std::string>& data_sets);
 
 }  // namespace pcrb_tools

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 
 #include "pcrb_core/evaluation/results_store.hpp"
+#include "report/catalog.hpp"
 #include "report/import_results.hpp"
 
 namespace pcrb_tools {
@@ -11,19 +13,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct NamedFolder {
-  std::string name;
-  std::string folder;
+struct NamedPath {
+  std::string name;  ///< empty if none is given
+  std::string path;
 };
 
-NamedFolder parseRun(const std::string& text) {
+/// `NAME=PATH` or `PATH`.
+NamedPath parseNamed(const std::string& text) {
   const std::size_t sign = text.find('=');
   if (sign != std::string::npos && sign > 0 && !fs::exists(text) &&
       text.substr(0, sign).find('/') == std::string::npos) {
     return {text.substr(0, sign), text.substr(sign + 1)};
   }
-  const fs::path folder = fs::absolute(text).lexically_normal();
-  return {(folder.has_filename() ? folder : folder.parent_path()).filename().string(), text};
+  return {"", text};
+}
+
+std::string lastName(const std::string& path) {
+  const fs::path folder = fs::absolute(path).lexically_normal();
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
 ScoredProblem fromResult(const pcrb::Result& result) {
@@ -74,16 +81,50 @@ void addByKind(const Entry& frame, std::vector<ScoredProblem> problems,
 }
 
 void addRun(const std::string& text, std::vector<Entry>& entries) {
-  const NamedFolder run = parseRun(text);
-  const pcrb::ResultsStore store(run.folder, pcrb::ResultsStore::Access::kReadOnly);
+  const NamedPath run = parseNamed(text);
+  const pcrb::ResultsStore store(run.path, pcrb::ResultsStore::Access::kReadOnly);
   Entry frame;
-  frame.method = run.name;
-  frame.path = run.folder;
+  frame.method = run.name.empty() ? lastName(run.path) : run.name;
+  frame.path = run.path;
   frame.info = store.runInfo();
   std::vector<ScoredProblem> problems;
   for (const pcrb::Result& result : store.results()) problems.push_back(fromResult(result));
   if (problems.empty()) throw pcrb::InvalidFile(store.path(), "holds no result yet");
   addByKind(frame, std::move(problems), entries);
+}
+
+Import readImport(const std::string& text, const std::string& format,
+                  const std::map<std::string, std::string>& data_sets) {
+  const NamedPath file = parseNamed(text);
+  Import import = importResults(file.name, file.path, format, data_sets);
+  std::cerr << "read " << file.path << " as method " << import.method;
+  if (!import.sequence.empty()) std::cerr << ", sequence " << import.sequence;
+  std::cerr << std::endl;
+  return import;
+}
+
+/// Files of one method make one entry.
+void addImports(const ReportOptions& options, std::vector<Entry>& entries) {
+  if (options.imports.empty()) return;
+  const auto data_sets = knownSequences(options.root);
+  std::vector<Import> imports;
+  for (const std::string& text : options.imports) {
+    Import import = readImport(text, options.format, data_sets);
+    const auto same = std::find_if(imports.begin(), imports.end(), [&](const Import& other) {
+      return other.method == import.method;
+    });
+    if (same == imports.end()) {
+      imports.push_back(std::move(import));
+      continue;
+    }
+    for (ScoredProblem& problem : import.problems) same->problems.push_back(std::move(problem));
+  }
+  for (Import& import : imports) {
+    Entry frame;
+    frame.method = import.method;
+    frame.path = import.path;
+    addByKind(frame, std::move(import.problems), entries);
+  }
 }
 
 void requireDistinct(const std::vector<Entry>& entries) {
@@ -102,24 +143,7 @@ void requireDistinct(const std::vector<Entry>& entries) {
 std::vector<Entry> loadEntries(const ReportOptions& options) {
   std::vector<Entry> entries;
   for (const std::string& run : options.runs) addRun(run, entries);
-  std::vector<Import> imports;
-  for (const std::string& path : options.imports) {
-    Import import = importResults(path, options.format);
-    const auto same = std::find_if(imports.begin(), imports.end(), [&](const Import& other) {
-      return other.method == import.method;
-    });
-    if (same == imports.end()) {
-      imports.push_back(std::move(import));
-      continue;
-    }
-    for (ScoredProblem& problem : import.problems) same->problems.push_back(std::move(problem));
-  }
-  for (Import& import : imports) {
-    Entry frame;
-    frame.method = import.method;
-    frame.path = import.path;
-    addByKind(frame, std::move(import.problems), entries);
-  }
+  addImports(options, entries);
   if (entries.empty()) {
     throw pcrb::InvalidParameter("found no run and no import, expected one at least");
   }

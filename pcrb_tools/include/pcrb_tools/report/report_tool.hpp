@@ -11,7 +11,7 @@ namespace pcrb_tools {
 /// What `report` is asked for.
 struct ReportOptions {
   std::vector<std::string> runs;     ///< run folders, each `FOLDER` or `NAME=FOLDER`
-  std::vector<std::string> imports;  ///< result files of others
+  std::vector<std::string> imports;  ///< result files of others, each `FILE` or `NAME=FILE`
   std::string format = "csv";        ///< of the imports: `csv` or `ppcr`
   std::string output;                ///< folder that is made or added to
   std::string title = "Point cloud registration benchmark";
