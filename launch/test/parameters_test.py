@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """What benchmark_server refuses: parameters, run folders, data. Each time with a message that tells all."""
+import contextlib
 import os
+import sqlite3
 import sys
 
 import numpy as np
@@ -9,7 +11,7 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, executable, rows
+from pcrb_testing import Child, TestCase, executable, rows, run_info
 
 
 class ParametersTest(TestCase):
@@ -22,6 +24,10 @@ class ParametersTest(TestCase):
         self.client(server).serve(server)
         self.assert_ends_well(server)
         return server
+
+    def registration_node(self, server, **parameters):
+        rospy.set_param(f'{server.namespace}/registration_node', {'method': 'icp', **parameters})
+        return self.start(Child([executable('pcrb_tools', 'registration_node')], server.namespace))
 
     def test_all_mistakes_are_listed_at_once(self):
         server = self.server(
@@ -41,7 +47,7 @@ class ParametersTest(TestCase):
         """roslaunch and rosrun turn such text into a number."""
         os.rename(self.data.folder('kitchen'), self.data.folder('1984'))
         os.rename(self.data.folder('kitchen_local.txt'), self.data.folder('1984_local.txt'))
-        server = self.server(self.data, folder=self.folder, run=2026, sequences=1984)
+        server = self.server(self.data, run=self.path('2026'), sequences=1984)
         self.client(server).serve(server)
         self.assert_ends_well(server)
         self.assertEqual({row['sequence'] for row in rows(self.path('2026'))}, {'1984'})
@@ -68,6 +74,18 @@ class ParametersTest(TestCase):
             r'under_test: the run has ``, asked for `icp`')
         self.assert_ends_well(self.start(server.again()))
 
+    def test_a_run_without_a_result_takes_another_configuration(self):
+        server = self.server(self.data, under_test='gipc', sequences='kitchen', connect_limit=0.1)
+        self.assert_fails(server, 'no client called')
+        before = run_info(server.run)
+        server = self.start(server.again(under_test='icp', sequences='hall', connect_limit=60.0))
+        self.client(server).serve(server)
+        self.assert_ends_well(server)
+        self.assert_rows_of(server.run, self.data.of('local', 'hall'))
+        after = run_info(server.run)
+        self.assertEqual((after['under_test'], after['secret']), ('icp', before['secret']))
+        self.assertNotIn('problem_file rooms/kitchen_local.txt', after)
+
     def test_a_run_goes_on_only_with_the_same_parameters_of_the_client(self):
         self.addCleanup(rospy.delete_param, rospy.get_name())
         rospy.set_param(rospy.get_name(), {'method': 'icp'})
@@ -82,6 +100,49 @@ class ParametersTest(TestCase):
         rospy.set_param(rospy.get_name(), {'method': 'icp'})
         server = self.start(server.again())
         client.serve(server)
+        self.assert_ends_well(server)
+
+    def play(self, server, max_iterations):
+        """A registration_node whose parameter file says so, and a server with the run's configuration."""
+        with open(self.path('icp.yaml'), 'w') as file:
+            file.write(f'max_iterations: {max_iterations}\nrooms: {{max_iterations: {max_iterations + 1}}}\n')
+        server = self.start(server.again())
+        return server, self.registration_node(server, parameters=self.path('icp.yaml'))
+
+    def assert_goes_on_with_the_same_file_only(self, first):
+        server, node = self.play(first, max_iterations=1)
+        self.assert_fails(server, r'(?s)holds results .*\bmax_iterations: 35\b.*\bmax_iterations: 1\b')
+        self.assertRegex(server.output(), r'(?s)\brooms/max_iterations: 36\b.*\brooms/max_iterations: 2\b')
+        node.kill()
+        server, node = self.play(first, max_iterations=35)
+        self.assert_ends_well(node)
+        self.assert_ends_well(server)
+        self.assert_rows_of(server.run, self.data.of('local'))
+
+    def test_a_run_goes_on_only_with_the_same_content_of_the_methods_file(self):
+        """As finished, when no problem is put to the method any more, and as interrupted."""
+        server = self.server(self.data, time_limit=60.0, linger=60.0, autostart=False)
+        server.wait_for_output('problems')
+        server.interrupt()
+        server.wait()
+        server.parameters['autostart'] = True
+        first, node = self.play(server, max_iterations=35)
+        self.assert_ends_well(node)
+        self.assert_ends_well(first)
+        self.assert_goes_on_with_the_same_file_only(first)
+        with contextlib.closing(sqlite3.connect(os.path.join(first.run, 'results.sqlite'))) as store, store:
+            store.execute("DELETE FROM result WHERE sequence = 'hall'")
+        self.assertEqual(len(first.rows()), len(self.data.of('local', 'kitchen')))
+        self.assert_goes_on_with_the_same_file_only(first)
+
+    def test_what_a_node_set_itself_is_no_mistake_when_it_starts_again(self):
+        server = self.server(self.data, sequences='kitchen', linger=60.0)
+        node = self.registration_node(server)
+        self.assert_ends_well(node)
+        self.assertTrue(rospy.has_param(f'{server.namespace}/registration_node/in_effect'))
+        self.assert_ends_well(server)
+        server = self.start(server.again(run=self.path('another')))
+        self.assert_ends_well(self.start(Child(node.command, server.namespace)))
         self.assert_ends_well(server)
 
     def test_a_run_whose_problem_file_has_changed_is_refused(self):

@@ -51,6 +51,13 @@ std::string range(T min, T max) {
 
 }  // namespace
 
+std::string relativePathMistake(const std::string& argument, const std::string& path) {
+  if (path.empty() || path.front() == '/') return "";
+  return "found `" + path +
+         "`, expected an absolute path: roslaunch starts programs in another folder; write " +
+         argument + ":=$PWD/" + path;
+}
+
 NodeParameters::NodeParameters() : node_("~") {}
 
 bool NodeParameters::find(const std::string& name, XmlRpc::XmlRpcValue& value) {
@@ -76,6 +83,23 @@ std::string NodeParameters::requiredString(const std::string& name) {
   const std::string value = string(name, "");
   if (value.empty() && mistakes_.size() == before) addMistake("~" + name + ": must be given");
   return value;
+}
+
+std::string NodeParameters::path(const std::string& name, const std::string& fallback) {
+  const std::string value = string(name, fallback);
+  checkPath(name, value);
+  return value;
+}
+
+std::string NodeParameters::requiredPath(const std::string& name) {
+  const std::string value = requiredString(name);
+  checkPath(name, value);
+  return value;
+}
+
+void NodeParameters::checkPath(const std::string& name, const std::string& value) {
+  const std::string mistake = relativePathMistake(name, value);
+  if (!mistake.empty()) addMistake("~" + name + ": " + mistake);
 }
 
 std::string NodeParameters::choice(const std::string& name, const std::string& fallback,

@@ -96,9 +96,10 @@ std::map<std::string, std::string> ResultsStore::runInfo() const {
 void ResultsStore::setRunInfo(const std::map<std::string, std::string>& info) {
   constexpr const char* kAction = "write the run table";
   Transaction transaction(impl_->database, kAction);
-  if (impl_->database.value("SELECT count(*) FROM run", kAction) != "0") {
-    throw StoreError(path() + ": found a run table with rows, expected a new store");
+  if (impl_->database.value("SELECT count(*) FROM result", kAction) != "0") {
+    throw StoreError(path() + ": found results, expected a new store");
   }
+  impl_->database.execute("DELETE FROM run", kAction);
   Statement insert(impl_->database, kUpsertRunInfo, kAction);
   for (const auto& [key, value] : info) {
     insert.run([&, &k = key, &v = value](Statement& row) {

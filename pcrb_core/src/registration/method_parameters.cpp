@@ -15,17 +15,15 @@ class ParameterFile {
  public:
   explicit ParameterFile(const std::string& path) : path_(path) {}
 
-  Parameters load(const std::string& data_set) const {
+  void read(Parameters& values, std::map<std::string, Parameters>& overrides) const {
     const YAML::Node root = parse();
-    Parameters parameters = readValues(root, true);
+    values = readValues(root, true);
     for (const auto& entry : root) {
       if (!entry.second.IsMap()) continue;
-      const Parameters overrides = readValues(entry.second, false);
-      requireKnown(overrides, parameters, entry.second);
-      if (entry.first.Scalar() != data_set) continue;
-      for (const auto& [name, value] : overrides) parameters[name] = value;
+      const Parameters different = readValues(entry.second, false);
+      requireKnown(different, values, entry.second);
+      overrides[entry.first.Scalar()] = different;
     }
-    return parameters;
   }
 
  private:
@@ -81,8 +79,22 @@ class ParameterFile {
 
 }  // namespace
 
-Parameters loadMethodParameters(const std::string& path, const std::string& data_set) {
-  return ParameterFile(path).load(data_set);
+MethodParameters::MethodParameters(const std::string& path) {
+  ParameterFile(path).read(values_, overrides_);
+}
+
+Parameters MethodParameters::of(const std::string& data_set) const {
+  Parameters parameters = values_;
+  const auto found = overrides_.find(data_set);
+  if (found == overrides_.end()) return parameters;
+  for (const auto& [name, value] : found->second) parameters[name] = value;
+  return parameters;
+}
+
+std::vector<std::string> MethodParameters::dataSets() const {
+  std::vector<std::string> names;
+  for (const auto& [name, overrides] : overrides_) names.push_back(name);
+  return names;
 }
 
 }  // namespace pcrb

@@ -162,13 +162,15 @@ TEST_F(ResultsStoreTest, AddsManyAtOnceOrNone) {
   EXPECT_EQ(store.count(), 3U);
 }
 
-TEST_F(ResultsStoreTest, HasARunTableThatIsWrittenOnceAndUpdatedByKey) {
+TEST_F(ResultsStoreTest, HasARunTableThatIsWrittenBeforeTheFirstResultAndUpdatedByKey) {
   const std::map<std::string, std::string> info{{"secret", "00"}, {"seed", "1"}};
   {
     ResultsStore store = writer();
     EXPECT_TRUE(store.runInfo().empty());
+    store.setRunInfo({{"seed", "2"}, {"root", "/data"}});
     store.setRunInfo(info);
     EXPECT_EQ(store.runInfo(), info);
+    store.add(fullResult("1"));
     expectError<StoreError>([&] { store.setRunInfo({{"seed", "2"}}); }, "expected a new store");
     store.updateRunInfo("client", "node");
     store.updateRunInfo("seed", "3");

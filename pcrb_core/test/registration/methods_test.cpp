@@ -203,10 +203,10 @@ TEST_P(Method, PutsAPlaneOnAPlaneOrSaysThatItCannot) {
 TEST_P(Method, HasItsDefaultsInItsParameterFile) {
   const std::string path =
       std::string(PCRB_SOURCE_DIR) + "/../launch/config/methods/" + GetParam() + ".yaml";
-  EXPECT_EQ(loadMethodParameters(path, "eth"), registrationDefaults(GetParam()));
+  EXPECT_EQ(MethodParameters(path).of("eth"), registrationDefaults(GetParam()));
   Parameters tum = registrationDefaults(GetParam());
   tum["voxel_leaf"] = "0.1";
-  EXPECT_EQ(loadMethodParameters(path, "tum"), tum);
+  EXPECT_EQ(MethodParameters(path).of("tum"), tum);
   EXPECT_NO_THROW(make(tum));
 }
 

@@ -83,7 +83,7 @@ class MethodFile : public Test {
   }
   std::string refusalOf(const std::string& text) {
     const std::string path = write(text);
-    return messageOf([&] { loadMethodParameters(path, "tum"); });
+    return messageOf([&] { MethodParameters(path).of("tum"); });
   }
 
   pcrb_test::TemporaryFolder folder_;
@@ -91,8 +91,16 @@ class MethodFile : public Test {
 
 TEST_F(MethodFile, GivesADataSetItsOwnValues) {
   const auto path = write("voxel_leaf: 0.2  # m\nseed: 1\ntum: {voxel_leaf: 0.1}\n");
-  EXPECT_EQ(loadMethodParameters(path, "eth"), (Parameters{{"voxel_leaf", "0.2"}, {"seed", "1"}}));
-  EXPECT_EQ(loadMethodParameters(path, "tum"), (Parameters{{"voxel_leaf", "0.1"}, {"seed", "1"}}));
+  EXPECT_EQ(MethodParameters(path).of("eth"), (Parameters{{"voxel_leaf", "0.2"}, {"seed", "1"}}));
+  EXPECT_EQ(MethodParameters(path).of("tum"), (Parameters{{"voxel_leaf", "0.1"}, {"seed", "1"}}));
+}
+
+TEST_F(MethodFile, KeepsWhatItReadWhenTheFileChanges) {
+  const MethodParameters parameters(write("seed: 1\ntum: {seed: 2}\neth: {seed: 3}\n"));
+  write("seed: 4\n");
+  EXPECT_EQ(parameters.of("kaist"), (Parameters{{"seed", "1"}}));
+  EXPECT_EQ(parameters.of("tum"), (Parameters{{"seed", "2"}}));
+  EXPECT_EQ(parameters.dataSets(), (std::vector<std::string>{"eth", "tum"}));
 }
 
 TEST_F(MethodFile, RefusesMistakesWithTheirLine) {
@@ -104,7 +112,7 @@ TEST_F(MethodFile, RefusesMistakesWithTheirLine) {
   expectIn(refusalOf("a: 1\n b: : 2\n"), "method.yaml:2: found");
   expectIn(refusalOf("just text\n"), "expected lines of `name: value`");
   expectIn(refusalOf(""), "expected lines of `name: value`");
-  EXPECT_THROW(loadMethodParameters(folder_.file("absent.yaml"), "tum"), InvalidFile);
+  EXPECT_THROW(MethodParameters(folder_.file("absent.yaml")).of("tum"), InvalidFile);
 }
 
 }  // namespace

@@ -9,6 +9,12 @@
 
 namespace pcrb {
 
+/// Why a program that roslaunch starts refuses a relative path, and what to write instead; empty
+/// for a path that is absolute or empty.
+///
+/// @param argument  of the launch file.
+std::string relativePathMistake(const std::string& argument, const std::string& path);
+
 /// Reads a node's private parameters and collects every mistake, to list them all at once.
 ///
 /// Names that nobody asked for are mistakes too: a misspelt parameter must not be ignored in
@@ -21,6 +27,12 @@ class NodeParameters {
 
   /// Text that must be there and not be empty.
   std::string requiredString(const std::string& name);
+
+  /// An absolute path, or none: roslaunch starts nodes in another folder than the user's.
+  std::string path(const std::string& name, const std::string& fallback = "");
+
+  /// An absolute path that must be there.
+  std::string requiredPath(const std::string& name);
 
   /// One of several words.
   std::string choice(const std::string& name, const std::string& fallback,
@@ -40,12 +52,16 @@ class NodeParameters {
 
   void addMistake(const std::string& mistake) { mistakes_.push_back(mistake); }
 
+  /// Names a parameter that the node itself sets: one that an earlier start left is no mistake.
+  void setsItself(const std::string& name) { asked_.insert(name); }
+
   /// Throws InvalidParameter with every mistake found so far and every private parameter whose name
   /// was never asked for; call it after the last read.
   void finish();
 
  private:
   bool find(const std::string& name, XmlRpc::XmlRpcValue& value);
+  void checkPath(const std::string& name, const std::string& value);
   void mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
                const std::string& expected);
 

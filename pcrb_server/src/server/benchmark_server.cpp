@@ -1,17 +1,14 @@
 #include "server/benchmark_server.hpp"
 
-#include <ros/param.h>
-
 #include <algorithm>
 #include <chrono>
 #include <functional>
 #include <iostream>
-#include <locale>
-#include <sstream>
 #include <thread>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/topics.hpp"
+#include "server/client_parameters.hpp"
 #include "server/scoring.hpp"
 #include "trigger_service.hpp"
 
@@ -36,16 +33,6 @@ std::string join(const std::set<std::string>& names) {
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : " ") + name;
   return text.empty() ? "nobody" : text;
-}
-
-/// Private parameters of a node as text, by name; empty where there are none.
-std::string parametersOf(const std::string& node) {
-  XmlRpc::XmlRpcValue value;
-  if (!ros::param::get(node, value)) return "";
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  value.write(text);
-  return text.str();
 }
 
 }  // namespace
@@ -118,6 +105,9 @@ void BenchmarkServer::offerControls() {
 bool BenchmarkServer::run() {
   RunProgress progress(done_, plan_.problems.size());
   waitForStart();  // also if nothing remains: who starts it wants to read the summary
+  if (remaining_.empty()) {
+    checkClientOfFinishedRun(record_, publications_, shutdown_, parameters_.linger);
+  }
   for (std::size_t i = 0; i < remaining_.size(); ++i) {
     waitForStart();
     if (!parameters_.handshake) waitForListener();

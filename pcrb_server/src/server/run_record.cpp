@@ -42,13 +42,15 @@ RunRecord::RunRecord(const ServerParameters& parameters, const RunPlan& plan,
       store_(parameters.run, ResultsStore::Access::kReadWrite),
       info_(store_.runInfo()) {
   const auto expected = identity(parameters, plan);
-  if (info_.empty()) {
-    secret_ = secret ? *secret : Secret::draw();
+  if (store_.count() == 0) {
+    const bool is_new = info_.empty();
+    secret_ = secret ? *secret : is_new ? Secret::draw() : Secret::fromHex(info_["secret"]);
+    const std::string created = is_new ? formatShortest(now()) : info_["created"];
     info_ = expected;
     info_["secret"] = secret_.toHex();
     info_["code_version"] = PCRB_VERSION;
     info_["root"] = parameters.root;
-    info_["created"] = formatShortest(now());
+    info_["created"] = created;
     info_["problems"] = std::to_string(plan.problems.size());
     for (const auto& [name, tool] : plan.drawn_by) info_["drawn_by " + name] = tool;
     store_.setRunInfo(info_);

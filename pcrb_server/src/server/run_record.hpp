@@ -18,9 +18,9 @@ namespace pcrb {
 /// A run folder: opens or resumes it, keeps its results, and writes its exports at the end.
 class RunRecord {
  public:
-  /// @throws StoreError  if the folder holds a run of another configuration (naming every
-  /// difference),
-  ///                     of other problem files, or cannot be used.
+  /// A run without a result takes any configuration, and keeps its secret.
+  /// @throws StoreError  if the folder holds results of another configuration (naming every
+  ///                     difference), of other problem files, or cannot be used.
   /// @param secret  that a new run gets and an old one must have; nothing = a new run draws its
   /// own.
   RunRecord(const ServerParameters& parameters, const RunPlan& plan,
@@ -40,6 +40,9 @@ class RunRecord {
   /// @param parameters  the client's private parameters as text; empty = none.
   /// @throws StoreError  if the run has results of the same client with other parameters.
   void noteClient(const std::string& name, const std::string& parameters);
+
+  /// Who answered last; empty = nobody yet.
+  std::string client() const { return info_.count("client") > 0 ? info_.at("client") : ""; }
 
   /// noteClient(), for one that must be the same for all results of the run.
   /// @throws StoreError  if the run has results of another one.

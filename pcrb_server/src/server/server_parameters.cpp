@@ -33,10 +33,11 @@ void parseShard(const std::string& text, ServerParameters& parameters) {
 }
 
 void readFolders(NodeParameters& reader, ServerParameters& parameters) {
-  parameters.root = reader.requiredString("root");
-  parameters.run = reader.requiredString("run");
+  parameters.root = reader.requiredPath("root");
+  parameters.run = reader.requiredPath("run");
   parameters.under_test = reader.string("under_test", "");
-  if (!parameters.root.empty() && !std::filesystem::is_directory(parameters.root)) {
+  const bool is_absolute = std::filesystem::path(parameters.root).is_absolute();
+  if (is_absolute && !std::filesystem::is_directory(parameters.root)) {
     reader.addMistake("~root: found `" + parameters.root + "`, expected an existing folder");
   }
 }

@@ -51,8 +51,8 @@ class ResultsStore {
   /// The run table. Empty for a new store.
   std::map<std::string, std::string> runInfo() const;
 
-  /// Writes the run table of a new store, in one transaction.
-  /// @throws StoreError  if the table has rows already.
+  /// Writes the run table of a store without results anew, in one transaction.
+  /// @throws StoreError  if the store has results already.
   void setRunInfo(const std::map<std::string, std::string>& info);
 
   /// Adds or replaces one value of the run table: for what is only known later.

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "pcrb_core/registration/registration.hpp"
 
 namespace pcrb {
 
-/// Reads a method's parameter file for a data set.
+/// A method's parameter file, as it was when it was read: what is written into it later changes
+/// nothing.
 ///
 /// YAML: one `name: value` a line; values are numbers, true, false or text. A map instead of a
 /// value holds what is different for the data set of that name, and only names that the file has at
@@ -14,9 +17,20 @@ namespace pcrb {
 ///
 ///     voxel_leaf: 0.2            # m
 ///     tum: {voxel_leaf: 0.1}     # m
-///
-/// @param data_set  e.g. `tum`; one that the file does not mention gets the top level's values.
-/// @throws InvalidFile  with file and line, what was found and what was expected.
-Parameters loadMethodParameters(const std::string& path, const std::string& data_set);
+class MethodParameters {
+ public:
+  /// @throws InvalidFile  with file and line, what was found and what was expected.
+  explicit MethodParameters(const std::string& path);
+
+  /// @param data_set  e.g. `tum`; one that the file does not mention gets the top level's values.
+  Parameters of(const std::string& data_set) const;
+
+  /// Those that the file mentions, sorted.
+  std::vector<std::string> dataSets() const;
+
+ private:
+  Parameters values_;
+  std::map<std::string, Parameters> overrides_;  // by data set
+};
 
 }  // namespace pcrb
