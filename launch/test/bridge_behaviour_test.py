@@ -10,6 +10,7 @@ import tf2_ros
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, PointCloud2
+from std_msgs.msg import String
 from std_srvs.srv import Empty, Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -183,7 +184,15 @@ class BridgeBehaviourTest(BridgeTestCase):
             self.assertRegex(row['reason'], r'the node said nothing to \d+ scans')
             self.assertEqual(row['error'], row['initial_misalignment'])
 
-    def test_a_node_that_only_echoes_and_one_of_an_unknown_type_time_out_with_the_reason(self):
+    def test_answers_of_an_unknown_type_time_out_with_the_reason(self):
+        server = self.localization(time_limit=1.0, sequences='kitchen', subset=1)
+        publisher = self.publisher(f'{server.namespace}/robot/pose', String)
+        self.robot(server, lambda stamp, T: publisher.publish('here'))
+        row, = self.rows_of_bridge(server, self.bridge(server, settle='first', answer_limit=0.2)).values()
+        self.assertEqual(row['outcome'], 'timed_out')
+        self.assertRegex(row['reason'], f'{server.namespace}/robot/pose: found messages of type std_msgs/String, expected')
+
+    def test_a_node_that_only_echoes_times_out_with_the_reason(self):
         server = self.localization(time_limit=1.0, sequences='kitchen', subset=1)
         publisher = self.publisher(f'{server.namespace}/robot/pose', PoseStamped)
         answered = []
