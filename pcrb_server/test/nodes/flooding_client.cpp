@@ -14,6 +14,7 @@
 namespace {
 
 constexpr int kThreads = 8;
+constexpr int kReportedEvery = 100;
 
 /// What all threads know of the problem announced last and the one before it.
 class Ids {
@@ -65,14 +66,19 @@ void flood(int first, const Ids& ids, std::atomic<int>& rejected, std::atomic<in
   for (int n = first; ros::ok(); ++n) {
     service.request = wrongReply(n, ids);
     if (!client.call(service)) return;
-    ++(service.response.accepted != 0 ? accepted : rejected);
+    if (service.response.accepted != 0) {
+      ++accepted;
+    } else if (const int count = ++rejected; count % kReportedEvery == 0) {
+      std::cout << std::to_string(count) + " so far\n" << std::flush;
+    }
   }
 }
 
 }  // namespace
 
 /// Floods a benchmark server with wrong replies from several connections at once, beside the client
-/// that works; ends with the server, and prints how many replies were rejected and accepted.
+/// that works; ends with the server, and prints how many replies were rejected and accepted, of the
+/// rejected ones each hundred when it is full.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "flooding_client");
   ros::NodeHandle node;
