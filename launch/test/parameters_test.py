@@ -11,7 +11,7 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, executable, rows, run_info
+from pcrb_testing import Child, Launch, TestCase, executable, rows, run_info
 
 
 class ParametersTest(TestCase):
@@ -42,6 +42,26 @@ class ParametersTest(TestCase):
             r'~global_guess: found `yes`, expected true or false', r'~linger: found `-1`',
             r'~map_frame and ~scan_frame', r'~load_threads: found `0`', r'~colour: no parameter',
             r'~nested: no parameter')
+
+    def test_relative_paths_are_refused_since_roslaunch_starts_nodes_elsewhere(self):
+        good = {'root': self.data.root, 'run': self.path('run')}
+        for file, refused, others in (
+                ('benchmark.launch', {'root': '~root', 'run': '~run'}, {}),
+                ('benchmark.launch', {'parameters': '~parameters', 'plugin': '~plugin'}, good),
+                ('localization.launch', {'node_launch': '~launch'}, good),
+                ('replay.launch', {'root': '~root', 'run': '~run'}, {'rviz': 'false'}),
+                ('paper.launch', {'root': '--root'}, {'run': self.path('run')})):
+            launch = self.start(Launch(file, **others, **{argument: 'my/bench' for argument in refused}))
+            launch.wait()
+            for argument, name in refused.items():
+                self.assertIn(f'{name}: found `my/bench`, expected an absolute path: roslaunch starts programs in '
+                              f'another folder; write {argument}:=$PWD/my/bench', launch.output())
+
+    def test_it_says_at_the_start_and_at_the_end_where_the_results_are(self):
+        server = self.finished(self.server(self.data, sequences='kitchen hall', subset=3, shard='0/2'))
+        self.assertRegex(server.output(), rf'results: {server.run}\nproblems: {self.data.root}, sequences hall kitchen, '
+                                          r'kind local, subset 3, shard 0/2\n')
+        self.assertRegex(server.output(), rf'total .*\nresults: {server.run}\n')
 
     def test_folders_and_sequences_may_have_numbers_for_their_names(self):
         """roslaunch and rosrun turn such text into a number."""

@@ -8,7 +8,10 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "pcrb_server/node_parameters.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -26,6 +29,21 @@ std::vector<std::string> argumentsForCli(int argc, char** argv) {
   return arguments;
 }
 
+/// Of the tools that launch files wrap: roslaunch, which appends `__name:=…`, starts them in
+/// another folder.
+void requireAbsolutePaths(const CLI::App& app, int argc, char** argv) {
+  const auto is_roslaunchs = [](const char* word) {
+    return std::string_view(word).rfind("__name:=", 0) == 0;
+  };
+  if (std::none_of(argv, argv + argc, is_roslaunchs)) return;
+  for (const std::string name : {"logs", "root", "run"}) {
+    const CLI::Option* const option = app.get_option_no_throw("--" + name);
+    if (option == nullptr || option->empty()) continue;
+    const std::string mistake = pcrb::relativePathMistake(name, option->results().front());
+    if (!mistake.empty()) throw CLI::ValidationError("--" + name, mistake);
+  }
+}
+
 int complain(const std::string& tool, std::string what, int status) {
   std::replace(what.begin(), what.end(), '\n', ' ');
   std::cerr << tool << ": " << what << std::endl;
@@ -39,6 +57,7 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& bo
   app.name(tool);
   try {
     app.parse(argumentsForCli(argc, argv));
+    requireAbsolutePaths(app, argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {

@@ -96,7 +96,7 @@ void readStart(NodeParameters& reader, BridgeParameters& parameters) {
   parameters.is_map_first = reader.boolean("map_first", true);
   parameters.map_settle = reader.number("map_settle", 1.0, 0.0, kLongTime);
   parameters.initialpose_settle = reader.number("initialpose_settle", 0.1, 0.0, kLongTime);
-  parameters.map_file = reader.string("map_file", "");
+  parameters.map_file = reader.path("map_file");
   checkMapFile(reader, parameters.map_file);
   parameters.send_initialpose = reader.boolean("send_initialpose", true);
   parameters.initialpose_translation = reader.number("initialpose_translation", 0.5, 0.0, 1e6);

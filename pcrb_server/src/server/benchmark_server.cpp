@@ -103,6 +103,7 @@ void BenchmarkServer::offerControls() {
 }
 
 bool BenchmarkServer::run() {
+  std::cout << describe(parameters_) << std::endl;
   RunProgress progress(done_, plan_.problems.size());
   waitForStart();  // also if nothing remains: who starts it wants to read the summary
   if (remaining_.empty()) {
@@ -209,7 +210,7 @@ bool BenchmarkServer::conclude() {
   const bool is_finished = done_ == plan_.problems.size();
   const std::string table = formatSummary(summaries);
   if (is_finished) record_.writeExports(table);
-  std::cout << '\n' << table << std::flush;
+  std::cout << '\n' << table << "results: " << parameters_.run << std::endl;
   if (!is_finished) {
     std::cout << done_ << " of " << plan_.problems.size()
               << " problems have a result; start again with the same ~run to go on" << std::endl;

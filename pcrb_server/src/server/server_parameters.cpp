@@ -20,6 +20,17 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string kindsOf(const ServerParameters& parameters) {
+  std::string kinds;
+  for (const Kind kind : parameters.kinds)
+    kinds += (kinds.empty() ? "" : " ") + std::string(toString(kind));
+  return kinds;
+}
+
+std::string shardOf(const ServerParameters& parameters) {
+  return std::to_string(parameters.shard) + "/" + std::to_string(parameters.shards);
+}
+
 /// `i/N`, counted from 0.
 void parseShard(const std::string& text, ServerParameters& parameters) {
   const std::size_t slash = text.find('/');
@@ -90,16 +101,20 @@ ServerParameters readServerParameters() {
   return parameters;
 }
 
+std::string describe(const ServerParameters& parameters) {
+  const std::string subset = parameters.subset > 0 ? std::to_string(parameters.subset) : "all";
+  return "results: " + parameters.run + "\nproblems: " + parameters.root + ", sequences " +
+         join(parameters.sequences) + ", kind " + kindsOf(parameters) + ", subset " + subset +
+         ", shard " + shardOf(parameters);
+}
+
 std::map<std::string, std::string> configuration(const ServerParameters& parameters) {
-  std::string kinds;
-  for (const Kind kind : parameters.kinds)
-    kinds += (kinds.empty() ? "" : " ") + std::string(toString(kind));
   return {{"under_test", parameters.under_test},
           {"sequences", join(parameters.sequences)},
-          {"kinds", kinds},
+          {"kinds", kindsOf(parameters)},
           {"presentation", toString(parameters.presentation)},
           {"subset", std::to_string(parameters.subset)},
-          {"shard", std::to_string(parameters.shard) + "/" + std::to_string(parameters.shards)},
+          {"shard", shardOf(parameters)},
           {"seed", std::to_string(parameters.seed)},
           {"time_limit", formatShortest(parameters.time_limit)},
           {"handshake", parameters.handshake ? "ready" : "none"},

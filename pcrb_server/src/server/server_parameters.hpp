@@ -48,6 +48,9 @@ struct ServerParameters {
 /// @throws InvalidParameter  listing every mistake.
 ServerParameters readServerParameters();
 
+/// Where the results go, and which problems they are of, in two lines.
+std::string describe(const ServerParameters& parameters);
+
 /// What must be the same when a run is resumed: name and value of each such parameter.
 std::map<std::string, std::string> configuration(const ServerParameters& parameters);
 

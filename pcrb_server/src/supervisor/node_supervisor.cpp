@@ -31,6 +31,9 @@ SupervisorParameters readSupervisorParameters() {
   if (launch.empty() || launch.size() > 2) {
     reader.addMistake("~launch: expected a launch file, or a package and its launch file");
   }
+  const std::string mistake =
+      launch.size() == 1 ? relativePathMistake("node_launch", launch.front()) : "";
+  if (!mistake.empty()) reader.addMistake("~launch: " + mistake + ", or a package and its file");
   parameters.command.insert(parameters.command.end(), launch.begin(), launch.end());
   for (const auto& word : reader.words("args", "")) {
     parameters.command.push_back(launchArgument(word));

@@ -41,7 +41,7 @@ Parameters readParameters() {
   parameters.time_limit_total = reader.number("time_limit_total", 3600.0, 0.1, 1e9);
   parameters.server = reader.string("server", "benchmark_server");
   parameters.clients = reader.words("clients", "");
-  parameters.run = reader.string("run", "");
+  parameters.run = reader.path("run");
   reader.finish();
   return parameters;
 }

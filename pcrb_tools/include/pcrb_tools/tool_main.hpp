@@ -27,7 +27,8 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
 /// Parses the command line and runs a tool: what every offline tool's main ends with.
 ///
 /// Arguments that roslaunch appends (`__name:=…`, remappings) are taken away first, which needs no
-/// master; `--help` prints the help and succeeds. An exception becomes one line on standard error,
+/// master; under roslaunch the paths --logs, --root and --run must be absolute; `--help` prints the
+/// help and succeeds. An exception becomes one line on standard error,
 /// `TOOL: what is wrong`, where TOOL is argv[0] without its folder. A write to a closed pipe ends
 /// the process as usual.
 ///

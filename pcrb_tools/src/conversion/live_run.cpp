@@ -32,7 +32,7 @@ bool takeLiveFlag(int& argc, char** argv) {
 
 LiveOptions readLiveParameters(pcrb::NodeParameters& parameters, ConversionRequest& request) {
   constexpr int kMostThreads = 1024;
-  request.root = parameters.requiredString("root");
+  request.root = parameters.requiredPath("root");
   request.sequence = parameters.requiredString("sequence");
   request.data_set = parameters.string("data_set", request.data_set);
   request.threads = parameters.integer("threads", pcrb::processorCount(), 1, kMostThreads);
