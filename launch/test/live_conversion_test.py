@@ -19,6 +19,7 @@ from pcrb_testing import Child, TestCase, executable, wait_until
 
 SECOND = 1311878220
 SCANS = 8
+VELODYNES = ['/ns1/velodyne_points', '/ns2/velodyne_points']
 
 LEFT_CALIBRATION = 'RPY: 1 2 3\nR: 0 -1 0 1 0 0 0 0 1\nT: -0.5 0.25 2\n'
 RIGHT_CALIBRATION = 'RPY: 1 2 3\nR: 1 0 0 0 1 0 0 0 1\nT: -0.5 -0.25 2\n'
@@ -66,7 +67,7 @@ class LiveConversionTest(TestCase):
         return self.write('log-groundtruth.txt', '# timestamp tx ty tz qx qy qz qw\n' + ''.join(rows))
 
     def kaist_poses(self):
-        rows = (f'{SECOND}{10 * i:03d}000000,0,-1,0,{332100.125 + i},1,0,0,4140500.25,0,0,1,21.5\n' for i in range(90))
+        rows = (f'{100 * SECOND + i}0000000,0,-1,0,{332100.125 + i},1,0,0,4140500.25,0,0,1,21.5\n' for i in range(390))
         return self.write('global_pose.csv', ''.join(rows))
 
     def bag(self, messages):
@@ -96,10 +97,10 @@ class LiveConversionTest(TestCase):
             return all(subscribers.get(topic) for topic in topics)
         wait_until(has_subscribed, 'the node subscribes')
 
-    def play(self, bag, node, topics):
+    def play(self, bag, node, topics, *options):
         """Plays a bag once the node has subscribed, and waits until it is over."""
         self.wait_for_subscribers(node, topics)
-        player = self.start(Child(['rosbag', 'play', '--quiet', '--wait-for-subscribers', '--rate=4', bag,
+        player = self.start(Child(['rosbag', 'play', '--quiet', '--wait-for-subscribers', '--rate=4', *options, bag,
                                    '--topics', *topics]))
         self.assertEqual(player.wait(), 0, player.output())
 
@@ -136,21 +137,32 @@ class LiveConversionTest(TestCase):
         self.play(f'{log}.bag', node, ['/camera/depth/image', '/camera/rgb/camera_info'])
         self.assertGreater(len(self.assert_live_equals_offline(node, offline, 'tum', interrupt=False)), 5)
 
-    def test_two_velodynes(self):
+    def start_two_velodynes(self, scans):
+        """A log of two sensors, its clouds as converted offline, and the node."""
         messages = []
-        for i in range(SCANS):
-            messages.append(('/ns1/velodyne_points', cloud(100000000 * i + 50000001, points_of(i), 'intensity')))
-            messages.append(('/ns2/velodyne_points', cloud(100000000 * i + 70000003, points_of(-i), 'intensity')))
+        for i in range(scans):
+            messages.append((VELODYNES[0], cloud(100000000 * i + 50000001, points_of(i), 'intensity')))
+            messages.append((VELODYNES[1], cloud(100000000 * i + 70000003, points_of(-i), 'intensity')))
         bag = self.bag(messages)
         files = {'poses': self.kaist_poses(), 'left_calibration': self.write('left.txt', LEFT_CALIBRATION),
                  'right_calibration': self.write('right.txt', RIGHT_CALIBRATION)}
         options = [word for name, path in files.items() for word in (f'--{name.replace("_", "-")}', path)]
         offline = self.convert_offline('kaist_to_pcd', bag, '--frame-offset', '10.5', '20', '30', *options)
-        node = self.live('kaist_to_pcd', frame_offset='10.5 20 30', **files)
-        self.play(bag, node, ['/ns1/velodyne_points', '/ns2/velodyne_points'])
+        return bag, offline, self.live('kaist_to_pcd', frame_offset='10.5 20 30', **files)
+
+    def test_two_velodynes(self):
+        bag, offline, node = self.start_two_velodynes(SCANS)
+        self.play(bag, node, VELODYNES)
         names = self.assert_live_equals_offline(node, offline, 'kaist')
         self.assertEqual(names[0], f'log_{SECOND}050000001.pcd')
         self.assertEqual(len(names), SCANS)
+
+    def test_two_velodynes_played_from_the_middle_and_then_wholly(self):
+        bag, offline, node = self.start_two_velodynes(36)
+        self.play(bag, node, VELODYNES, '--start=2')
+        self.play(bag, node, VELODYNES)
+        self.assertEqual(len(self.assert_live_equals_offline(node, offline, 'kaist')), 36)
+        self.assertIn('the stamps went back', node.output())
 
     def test_all_mistakes_in_the_parameters_are_listed(self):
         node = self.live('kaist_to_pcd', root='', frame_offset='1 2', max_rate=-1, colour='red')

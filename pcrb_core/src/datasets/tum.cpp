@@ -95,9 +95,11 @@ RateLimiter::RateLimiter(double max_rate) {
 
 bool RateLimiter::keep(Stamp stamp) {
   if (period_ == 0) return true;
-  if (!first_ && stamp < due_ - period_ / 10) return false;
-  // After a gap the schedule starts anew: it must not catch up by keeping everything.
-  const bool restart = first_ || stamp >= due_ + period_;
+  // After a gap the schedule starts anew: it must not catch up by keeping everything. When a log is
+  // played again, too: it must not wait until it is where it was.
+  const bool goes_back = stamp < due_ - 2 * period_;
+  const bool restart = first_ || goes_back || stamp >= due_ + period_;
+  if (!restart && stamp < due_ - period_ / 10) return false;
   due_ = (restart ? stamp : due_) + period_;
   first_ = false;
   return true;

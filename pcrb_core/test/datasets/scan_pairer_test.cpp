@@ -60,6 +60,54 @@ TEST(ScanPairer, ForgetsWhatNoLaterScanNeeds) {
   EXPECT_LE(one_sided.waiting(), 12u);
 }
 
+TEST(ScanPairer, PairsALogThatIsPlayedAgainAsIfNothingHadComeBefore) {
+  Pairer pairer(5 * kSecond);
+  for (Stamp second = 8; second <= 12; ++second) {
+    pairer.addLeft(second * kSecond, 0);
+    pairer.addRight(second * kSecond + 40, 0);
+  }
+  for (Stamp second = 0; second <= 12; ++second) {
+    EXPECT_EQ(textOf(pairer.addLeft(second * kSecond, 0)), Texts{}) << second;
+    EXPECT_EQ(
+        textOf(pairer.addRight(second * kSecond + 40, 0)),
+        Texts{std::to_string(second * kSecond) + '>' + std::to_string(second * kSecond + 40)});
+  }
+}
+
+TEST(ScanPairer, GivesWhatWaitsWithItsBestPartnerWhenAStreamGoesBack) {
+  Pairer pairer(5 * kSecond);
+  pairer.addRight(8 * kSecond, 0);
+  pairer.addLeft(8 * kSecond + 70, 0);
+  EXPECT_EQ(textOf(pairer.addLeft(0, 0)), Texts{"8000000070>8000000000"});
+  EXPECT_EQ(textOf(pairer.addRight(90, 0)), Texts{"0>90"});
+}
+
+TEST(ScanPairer, DoesNotPairWhatOneStreamStillSendsFromBeforeTheOtherWentBack) {
+  Pairer pairer(5 * kSecond);
+  pairer.addLeft(12 * kSecond, 0);
+  pairer.addRight(12 * kSecond, 0);
+  EXPECT_EQ(textOf(pairer.addLeft(0, 0)), Texts{});
+  EXPECT_EQ(textOf(pairer.addRight(12 * kSecond + 90, 0)), Texts{});
+  EXPECT_EQ(textOf(pairer.addRight(40, 0)), Texts{"0>40"});
+}
+
+TEST(ScanPairer, GivesALeftScanFromBeforeTheRightStreamWentBackWithoutAPartner) {
+  Pairer pairer(5 * kSecond);
+  pairer.addLeft(12 * kSecond, 0);
+  pairer.addRight(12 * kSecond, 0);
+  EXPECT_EQ(textOf(pairer.addRight(0, 0)), Texts{});
+  EXPECT_EQ(textOf(pairer.addLeft(12 * kSecond + 90, 0)), Texts{"12000000090>-"});
+  EXPECT_EQ(textOf(pairer.addLeft(0, 0)), Texts{"0>0"});
+}
+
+TEST(ScanPairer, TakesDisorderWithinASecondForNoGoingBack) {
+  Pairer pairer(5 * kSecond);
+  pairer.addRight(8 * kSecond, 0);
+  pairer.addLeft(9 * kSecond, 0);
+  EXPECT_EQ(textOf(pairer.addLeft(8 * kSecond + 20, 0)), Texts{});
+  EXPECT_EQ(textOf(pairer.addRight(8 * kSecond + 30, 0)), Texts{"8000000020>8000000030"});
+}
+
 TEST(ScanPairer, GivesWhatTheWholeListsGiveHoweverTheStreamsInterleave) {
   Random random(5);
   std::vector<Stamp> lefts;

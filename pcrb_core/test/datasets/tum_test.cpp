@@ -201,6 +201,15 @@ TEST(RateLimiter, DoesNotCatchUpAfterAGap) {
   EXPECT_TRUE(limiter.keep(toStamp(12.5)));
 }
 
+TEST(RateLimiter, ThinsAStreamThatGoesBackAnew) {
+  RateLimiter limiter(2.0);
+  for (const double second : {8.0, 8.5, 9.0}) EXPECT_TRUE(limiter.keep(toStamp(second)));
+  EXPECT_FALSE(limiter.keep(toStamp(8.9)));  // disorder
+  EXPECT_TRUE(limiter.keep(toStamp(3.0)));
+  EXPECT_FALSE(limiter.keep(toStamp(3.2)));
+  EXPECT_TRUE(limiter.keep(toStamp(3.5)));
+}
+
 TEST(RateLimiter, ZeroKeepsEverythingAndNonsenseIsRejected) {
   EXPECT_EQ(keptOf(RateLimiter(0.0), 0.001, 50), 50u);
   EXPECT_THROW(RateLimiter(-2.0), InvalidParameter);

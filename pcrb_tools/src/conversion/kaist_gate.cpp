@@ -62,8 +62,7 @@ std::optional<KaistGate::Pair> KaistGate::admit(pcrb::Stamp left,
     conversion_.drop(name, reason);
     return std::nullopt;
   };
-  if (!seen_.insert(left).second) return drop("the stamp of another scan");
-  if (!limiter_.keep(left)) return drop("beyond the maximal rate");
+  if (clock_.goesBack(left)) conversion_.noteGoingBack();
   if (!right || std::abs(*right - left) > request_.options.max_pair_gap) {
     return drop("no right scan close in time");
   }
@@ -73,11 +72,27 @@ std::optional<KaistGate::Pair> KaistGate::admit(pcrb::Stamp left,
   if (right_pose.status != pcrb::PoseStatus::kFound) {
     return drop(std::string("the right scan is ") + toString(right_pose.status));
   }
+  if (const char* reason = refuse(left, *right)) return drop(reason);
   const std::string origin = std::to_string(*right) + poseText(left_pose.T_world_body) +
                              poseText(right_pose.T_world_body) + poseText(frames_.T_vehicle_left) +
                              poseText(frames_.T_vehicle_right) +
                              (request_.origin == pcrb::OriginPoints::kDrop ? " drop" : " keep");
   return Pair{name, left_pose.T_world_body, right_pose.T_world_body, origin};
+}
+
+const char* KaistGate::refuse(pcrb::Stamp left, pcrb::Stamp right) {
+  const bool is_due = limiter_.keep(left);  // asked of a repetition, too: it has its place in time
+  const auto earlier = partners_.find(left);
+  if (earlier == partners_.end() && !is_due) return "beyond the maximal rate";
+  if (earlier != partners_.end()) {
+    const auto ranked = [left](pcrb::Stamp other) {
+      return std::pair(std::abs(other - left), other);
+    };
+    if (ranked(right) >= ranked(earlier->second)) return "the stamp of an earlier one";
+    conversion_.takeBack(pcrb::kaistCloudName(sequence_, left));
+  }
+  partners_[left] = right;
+  return nullptr;
 }
 
 ConvertedScan mergePair(const KaistFrames& frames, const KaistGate::Pair& pair,

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "pcrb_core/datasets/kaist.hpp"
+#include "pcrb_core/datasets/stream_clock.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_tools/conversion/kaist_conversion.hpp"
 #include "pcrb_tools/conversion/log_files.hpp"
@@ -41,17 +42,22 @@ class KaistGate {
   KaistGate(const KaistFrames& frames, const KaistRequest& request, const std::string& sequence,
             Conversion& conversion);
 
-  /// How the cloud of two scans is made, or nothing: then it was dropped with the reason. Left
-  /// stamps must come in ascending order.
+  /// How the cloud of two scans is made, or nothing: then it was dropped with the reason. Only
+  /// scans with poses and a partner count against the rate. A left scan that comes again with a
+  /// better partner, as its log is played again, replaces its earlier cloud.
   std::optional<Pair> admit(pcrb::Stamp left, std::optional<pcrb::Stamp> right);
 
  private:
+  /// Why a pair with poses becomes no cloud; null if it does.
+  const char* refuse(pcrb::Stamp left, pcrb::Stamp right);
+
   const KaistFrames& frames_;
   const KaistRequest& request_;
   std::string sequence_;
   Conversion& conversion_;
   pcrb::RateLimiter limiter_;
-  std::set<pcrb::Stamp> seen_;
+  pcrb::StreamClock clock_;
+  std::map<pcrb::Stamp, pcrb::Stamp> partners_;  ///< right scans of the admitted left ones
 };
 
 /// The cloud of two scans.

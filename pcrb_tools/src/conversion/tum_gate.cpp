@@ -18,12 +18,19 @@ std::optional<pcrb::Transform> TumGate::admit(pcrb::Stamp stamp) {
     conversion_.drop(cloudName(stamp), reason);
     return std::nullopt;
   };
-  if (!seen_.insert(stamp).second) return drop("the stamp of another cloud");
-  if (!limiter_.keep(stamp)) return drop("beyond the maximal rate");
-  if (options_.nearest) return trajectory_.nearest(stamp).T_world_body;
-  const pcrb::PoseAnswer answer = trajectory_.interpolate(stamp, options_.max_gap);
+  if (clock_.goesBack(stamp)) conversion_.noteGoingBack();
+  const pcrb::PoseAnswer answer = poseAt(stamp);
   if (answer.status != pcrb::PoseStatus::kFound) return drop(pcrb::toString(answer.status));
+  const bool is_due = limiter_.keep(stamp);  // asked of a repetition, too: it has its place in time
+  if (admitted_.count(stamp) > 0) return drop("the stamp of an earlier one");
+  if (!is_due) return drop("beyond the maximal rate");
+  admitted_.insert(stamp);
   return answer.T_world_body;
+}
+
+pcrb::PoseAnswer TumGate::poseAt(pcrb::Stamp stamp) const {
+  if (!options_.nearest) return trajectory_.interpolate(stamp, options_.max_gap);
+  return {pcrb::PoseStatus::kFound, trajectory_.nearest(stamp).T_world_body};
 }
 
 void noteTrajectory(const pcrb::Trajectory& trajectory, Conversion& conversion) {

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "pcrb_core/datasets/stream_clock.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_tools/conversion/tum_conversion.hpp"
 
@@ -19,18 +20,21 @@ class TumGate {
           Conversion& conversion);
 
   /// The pose of a cloud that is to be converted; else it is dropped from the conversion with the
-  /// reason. Stamps must come in ascending order.
+  /// reason. Only clouds with a pose count against the rate.
   std::optional<pcrb::Transform> admit(pcrb::Stamp stamp);
 
   /// A cloud's file name: `1311878220.377686160.pcd`.
   static std::string cloudName(pcrb::Stamp stamp) { return pcrb::formatStamp(stamp) + ".pcd"; }
 
  private:
+  pcrb::PoseAnswer poseAt(pcrb::Stamp stamp) const;
+
   const pcrb::Trajectory& trajectory_;
   const TumOptions& options_;
   Conversion& conversion_;
   pcrb::RateLimiter limiter_;
-  std::set<pcrb::Stamp> seen_;
+  pcrb::StreamClock clock_;
+  std::set<pcrb::Stamp> admitted_;
 };
 
 /// Notes what a user should know of the poses.

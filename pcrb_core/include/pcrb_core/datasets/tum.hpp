@@ -61,14 +61,14 @@ SensorScan depthToScan(const DepthImage& image, const Intrinsics& intrinsics,
 
 /// Thins a stream of stamps to a rate: the first, then each that is due. What is due keeps to the
 /// rate on average and tolerates a jitter of a tenth of the period, so a stream that has the rate
-/// already loses nothing.
+/// already loses nothing. A stream that goes back by more than the period is thinned anew.
 class RateLimiter {
  public:
   /// @param max_rate  Hz; 0 = let everything pass
   /// @throws InvalidParameter  if negative or not finite.
   explicit RateLimiter(double max_rate);
 
-  /// Whether the cloud of this stamp is kept; stamps must come in ascending order.
+  /// Whether the cloud of this stamp is kept.
   bool keep(Stamp stamp);
 
  private:
