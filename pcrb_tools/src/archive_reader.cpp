@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <vector>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/text_rows.hpp"
@@ -15,6 +17,8 @@ namespace pcrb_tools {
 namespace {
 
 constexpr std::size_t kBlockSize = 1 << 18;
+constexpr std::uint64_t kMaxExpansion = 100;
+constexpr std::uint64_t kHarmlessSize = 1 << 20;  ///< bytes, whatever the archive's size
 
 bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -80,6 +84,7 @@ ArchiveReader::ArchiveReader(const std::string& path)
     require(support(archive_.get()), archive_.get(), path_);
   }
   if (archive_read_open_filename(archive_.get(), path_.c_str(), kBlockSize) != ARCHIVE_OK) fail();
+  size_limit_ = kHarmlessSize + kMaxExpansion * std::filesystem::file_size(path_);
 }
 
 ArchiveReader::~ArchiveReader() = default;
@@ -96,28 +101,54 @@ bool ArchiveReader::next() {
     if (name == nullptr) fail();
     if (archive_entry_filetype(entry) != AE_IFREG) continue;
     name_ = requirePlainEntryName(name, path_);
+    claimed_size_ = archive_entry_size_is_set(entry) != 0
+                        ? static_cast<std::uint64_t>(archive_entry_size(entry))
+                        : 0;
     return true;
   }
 }
 
+std::size_t ArchiveReader::readSome(char* bytes, std::size_t size) {
+  const auto got = archive_read_data(archive_.get(), bytes, size);
+  if (got < 0) fail();
+  return static_cast<std::size_t>(got);
+}
+
 std::string ArchiveReader::read(std::uint64_t max_size) {
+  const std::uint64_t limit = std::min(max_size, size_limit_);
+  if (claimed_size_ > limit) refuseLargerThan(limit);
   std::string bytes;
-  std::size_t used = 0;
-  for (;;) {
-    bytes.resize(std::max(used + kBlockSize, used + used / 2));
-    const auto got = archive_read_data(archive_.get(), bytes.data() + used, bytes.size() - used);
-    if (got < 0) fail();
-    if (got == 0) break;
-    used += static_cast<std::size_t>(got);
-    if (used > max_size) {
-      throw pcrb::InvalidFile(path_, 0,
-                              "an entry " + pcrb::inQuotes(name_) + " of more than " +
-                                  std::to_string(max_size) + " bytes",
-                              "a scan");
-    }
+  for (std::uint64_t used = 0;;) {
+    // One byte more than claimed or allowed, to see whether the file goes on.
+    const std::uint64_t wanted = used <= claimed_size_
+                                     ? claimed_size_ + 1
+                                     : used + std::max<std::uint64_t>(kBlockSize, used / 2);
+    bytes.resize(std::min(limit + 1, wanted));
+    const std::size_t got = readSome(bytes.data() + used, bytes.size() - used);
+    used += got;
+    if (used > limit) refuseLargerThan(limit);
+    if (got > 0) continue;
+    bytes.resize(used);
+    return bytes;
   }
-  bytes.resize(used);
-  return bytes;
+}
+
+void ArchiveReader::verify() {
+  std::vector<char> block(kBlockSize);
+  std::uint64_t used = 0;
+  while (const std::size_t got = readSome(block.data(), block.size())) {
+    used += got;
+    if (used > size_limit_) refuseLargerThan(size_limit_);
+  }
+}
+
+void ArchiveReader::refuseLargerThan(std::uint64_t limit) const {
+  throw pcrb::InvalidFile(
+      path_, 0,
+      "an entry " + pcrb::inQuotes(name_) + " of more than " + std::to_string(limit) + " bytes",
+      limit < size_limit_
+          ? "at most that much in a file of its kind"
+          : "at most " + std::to_string(kMaxExpansion) + " times the size of the archive");
 }
 
 void ArchiveReader::fail() const {

@@ -54,9 +54,19 @@ TEST_P(EitherArchive, RefusesAnEntryThatIsLargerThanTheLimit) {
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, filesOf(path), "an entry 'bomb.csv' of more than");
 }
 
+TEST_P(EitherArchive, RefusesAnEntryThatIsFarLargerThanTheArchive) {
+  const std::string path = write({{"bomb.csv", std::string(8 << 20, '\n')}});
+  ArchiveReader reader(path);
+  ASSERT_TRUE(reader.next());
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, reader.read(1 << 30),
+                    "bytes, expected at most 100 times the size of the archive");
+  ArchiveReader again(path);
+  ASSERT_TRUE(again.next());
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, again.verify(), "an entry 'bomb.csv' of more than");
+}
+
 TEST_P(EitherArchive, ACutArchiveIsAnError) {
-  std::string noise;
-  for (unsigned i = 0; i != 50000; ++i) noise += static_cast<char>(i * i * 2654435761U >> 11);
+  const std::string noise = pcrb_test::noise(50000);
   const std::string path = write({{"a.csv", noise}, {"b.csv", noise}});
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, filesOf(path), path);
@@ -69,6 +79,19 @@ TEST_P(EitherArchive, NamesOutsideAsciiAreRead) {
 
 INSTANTIATE_TEST_SUITE_P(ArchiveReader, EitherArchive, testing::Values("a.zip", "a.tgz"),
                          [](const auto& given) { return std::string(given.param).substr(2); });
+
+TEST(ArchiveReader, VerifyFindsDamagedBytesThatTheHeadersDoNotShow) {
+  const pcrb_test::TemporaryFolder folder;
+  const std::string path = folder.file("a.zip");
+  pcrb_test::writeArchive(path, {{"a.csv", pcrb_test::noise(5000)}, {"b.csv", "b"}});
+  const auto verify = [&] {
+    ArchiveReader reader(path);
+    while (reader.next()) reader.verify();
+  };
+  EXPECT_NO_THROW(verify());
+  pcrb_test::damage(path, 2000);
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, verify(), "damaged or no archive");
+}
 
 TEST(ArchiveReader, AnHtmlPageIsNoArchive) {
   const pcrb_test::TemporaryFolder folder;

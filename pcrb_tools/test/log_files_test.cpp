@@ -52,6 +52,23 @@ TEST(LogFiles, ArchivesBelowAFolderAndSingleFilesAreRead) {
   EXPECT_EQ(bytes, "one");
 }
 
+TEST(LogFiles, WhatIsTooLargeForItsKindIsNotReadFromAnArchive) {
+  const pcrb_test::TemporaryFolder folder;
+  // Repeated noise compresses to a hundredth, which is not what is refused here.
+  const std::string block = pcrb_test::noise(30000);
+  std::string bytes;
+  while (bytes.size() <= 1U << 24) bytes += block;
+  const std::string archive = folder.file("a.zip");
+  pcrb_test::writeArchive(
+      archive,
+      {{"noise", pcrb_test::noise(400000)}, {"VLP_left/1.bin", bytes}, {"VLP_left.csv", bytes}});
+  const LogFiles files({archive}, [](const LogFile& file) { return file.name == "VLP_left.csv"; });
+  EXPECT_EQ(files.text(2).size(), bytes.size());
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, files.readArchived({1}, [](std::size_t, std::string) {}),
+                    "an entry 'VLP_left/1.bin' of more than 16777216 bytes, expected at most that "
+                    "much in a file of its kind");
+}
+
 TEST(LogFiles, LinksToFoldersAreFollowedButNotInCircles) {
   const pcrb_test::TemporaryFolder folder;
   pcrb_test::writeFiles(folder.path(), {{"log/a.csv", "a"}, {"disk/b.csv", "b"}});

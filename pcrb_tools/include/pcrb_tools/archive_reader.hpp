@@ -37,17 +37,30 @@ class ArchiveReader {
 
   const std::string& name() const { return name_; }
 
+  /// What a file of this archive may expand to at most, bytes: a hundred times the archive's size,
+  /// and a little for small ones. Scans compress to a tenth; a few kilobytes can claim to be
+  /// terabytes.
+  std::uint64_t sizeLimit() const { return size_limit_; }
+
   /// The bytes of the file that next() went to.
   ///
-  /// @throws InvalidFile  if they are damaged, encrypted or more than `max_size`: a few kilobytes
-  ///                      can claim to be terabytes.
+  /// @throws InvalidFile  if they are damaged, encrypted or more than `max_size` or sizeLimit().
   std::string read(std::uint64_t max_size);
 
+  /// Reads the file that next() went to without keeping it.
+  /// @throws InvalidFile  as read() does.
+  void verify();
+
  private:
+  /// Reads the next bytes; returns how many, 0 at the end.
+  std::size_t readSome(char* bytes, std::size_t size);
+  [[noreturn]] void refuseLargerThan(std::uint64_t limit) const;
   [[noreturn]] void fail() const;
 
   std::string path_;
   std::string name_;
+  std::uint64_t size_limit_ = 0;
+  std::uint64_t claimed_size_ = 0;  ///< of the file that next() went to; 0 = unknown
   std::unique_ptr<archive, int (*)(archive*)> archive_;
 };
 

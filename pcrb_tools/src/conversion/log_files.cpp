@@ -1,6 +1,7 @@
 #include "pcrb_tools/conversion/log_files.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <utility>
@@ -14,6 +15,16 @@ namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Bytes that the texts read at once of one archive may have together: some hours of KAIST's poses.
+constexpr std::uint64_t kMaxTexts = std::uint64_t{1} << 28;
+
+/// Largest file of its kind that is read from an archive, bytes. Real ones: 0.5 MB for the 30,000
+/// points of a velodyne's turn; 22 MB for a CSV of 365,000 points; 70 MB for an hour of poses.
+std::uint64_t largestSize(const LogFile& file) {
+  const bool is_velodyne = fs::path(file.name).extension() == ".bin";
+  return std::uint64_t{1} << (is_velodyne ? 24 : 27);
+}
 
 bool isHidden(const std::string& file_name) { return !file_name.empty() && file_name[0] == '.'; }
 
@@ -94,13 +105,18 @@ void LogFiles::addArchive(const std::string& path, const Predicate& read_at_once
   const std::string identity = fileIdentity(path);
   std::set<std::string> names;
   ArchiveReader reader(path);
+  std::uint64_t left = std::min(kMaxTexts, reader.sizeLimit());
   while (reader.next()) {
     LogFile file{path, reader.name(), true, identity};
     if (isHidden(file.fileName())) continue;
     if (!names.insert(file.name).second) {
       throw pcrb::InvalidFile(file.path(), "is in the archive twice");
     }
-    if (read_at_once(file)) texts_.emplace(files_.size(), reader.read(kMaxLogFileSize));
+    if (read_at_once(file)) {
+      std::string text = reader.read(std::min(left, largestSize(file)));
+      left -= text.size();
+      texts_.emplace(files_.size(), std::move(text));
+    }
     files_.push_back(std::move(file));
   }
 }
@@ -128,7 +144,7 @@ void LogFiles::readArchived(const std::vector<std::size_t>& indices, const Taker
     while (!names.empty() && reader.next()) {
       const auto found = names.find(reader.name());
       if (found == names.end()) continue;
-      take(found->second, reader.read(kMaxLogFileSize));
+      take(found->second, reader.read(largestSize(files_[found->second])));
       names.erase(found);
     }
     if (!names.empty()) throw pcrb::InvalidFile(path, "changed while it was read");

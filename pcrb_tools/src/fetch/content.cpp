@@ -16,11 +16,14 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kBagMagic = "#ROSBAG V2.0";
 
-/// Goes through all of an archive: it must be whole, and its names must not point out of it.
+/// Reads all of an archive: it must be whole, its files undamaged as far as it has checksums of
+/// them, and its names must not point out of it.
 void requireArchive(const std::string& path) {
   ArchiveReader archive(path);
   if (!archive.next()) throw pcrb::InvalidFile(path, 0, "an empty archive", "files in it");
-  while (archive.next()) continue;
+  do {
+    archive.verify();
+  } while (archive.next());
 }
 
 void requireLog(const Source& source, const std::string& path) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -31,6 +32,23 @@ inline std::string readFile(const std::string& path) {
 
 inline void writeFiles(const std::string& folder, const NamedFiles& files) {
   for (const auto& [name, bytes] : files) writeFile(folder + '/' + name, bytes);
+}
+
+/// Bytes that do not compress.
+inline std::string noise(std::size_t size) {
+  std::mt19937 random(1);
+  std::string bytes;
+  for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(random() & 0xFF);
+  return bytes;
+}
+
+/// Changes 64 bytes of a file.
+inline void damage(const std::string& path, std::size_t offset) {
+  std::string bytes = readFile(path);
+  for (std::size_t i = offset; i < offset + 64; ++i) {
+    bytes.at(i) = static_cast<char>(bytes.at(i) ^ 0x55);
+  }
+  writeFile(path, bytes);
 }
 
 /// Names in a folder, hidden ones included, sorted.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -21,9 +21,6 @@ struct LogFile {
   std::string fileName() const;  ///< last part of the name
   std::string folder() const;    ///< the name without its last part, empty or with `/` at its end
 };
-
-/// Largest file that is read from an archive, bytes.
-constexpr std::uint64_t kMaxLogFileSize = std::uint64_t{1} << 29;
 
 /// The files of an original log, given as folders, archives and single files.
 ///
