@@ -213,6 +213,9 @@ TEST(Checksums, AreRecordedOnFirstUseAndVerifiedLater) {
                pcrb::InvalidFile);
   writeFile(folder.file("logs/abc"), "abd");
   EXPECT_THROW(again.check("x/abc", folder.file("logs/abc"), ""), pcrb::InvalidFile);
+  const std::string abd = "a52d159f262b2c6ddb724a61840befc36eb30c88877a4030b65cbe86298449c9";
+  EXPECT_NO_THROW(again.check("x/abc", folder.file("logs/abc"), abd));  // the list of sources knows
+  EXPECT_EQ(Checksums(folder.file("logs/SHA256SUMS")).find("x/abc"), abd);
   writeFile(folder.file("logs/SHA256SUMS"), "no checksum\n");
   EXPECT_THROW(Checksums(folder.file("logs/SHA256SUMS")), pcrb::InvalidFile);
 }

@@ -29,29 +29,41 @@ Checksums::Checksums(std::string path) : path_(std::move(path)) {
                         line.substr(kDigits, kSeparator.size()) == kSeparator &&
                         digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
     if (!is_row) lines.fail(pcrb::inQuotes(line), "64 hexadecimal digits, two blanks and a name");
-    sha256_of_[std::string(line.substr(kDigits + kSeparator.size()))] = digits;
+    recorded_[std::string(line.substr(kDigits + kSeparator.size()))] = {std::string(digits),
+                                                                        lines.lineNumber()};
   }
 }
 
 std::string Checksums::find(const std::string& name) const {
-  const auto found = sha256_of_.find(name);
-  return found == sha256_of_.end() ? std::string() : found->second;
+  const auto found = recorded_.find(name);
+  return found == recorded_.end() ? std::string() : found->second.sha256;
 }
 
 void Checksums::check(const std::string& name, const std::string& path,
                       const std::string& expected) {
   const std::string sha256 = pcrb::fileSha256(path);
-  const std::string recorded = find(name);
-  for (const std::string& known : {expected, recorded}) {
-    if (!known.empty() && known != sha256) {
-      throw pcrb::InvalidFile(path, 0, "SHA-256 " + sha256,
-                              known + (known == recorded ? ", recorded in " + path_ : ""));
-    }
+  if (!expected.empty() && sha256 != expected) {
+    throw pcrb::InvalidFile(path, 0, "SHA-256 " + sha256, expected);
   }
-  if (!recorded.empty()) return;
-  sha256_of_[name] = sha256;
+  const std::string recorded = find(name);
+  if (sha256 == recorded) return;
+  if (expected.empty() && !recorded.empty()) {
+    throw pcrb::InvalidFile(
+        path, 0, "SHA-256 " + sha256,
+        recorded + ", recorded in " + path_ + ":" + std::to_string(recorded_.at(name).line) +
+            "; if that was of a damaged file, delete that line to take this one");
+  }
+  recorded_[name].sha256 = sha256;
+  write();
+}
+
+void Checksums::write() {
   std::string text;
-  for (const auto& [other, digits] : sha256_of_) text += digits + "  " + other + "\n";
+  std::size_t line = 0;
+  for (auto& [name, recorded] : recorded_) {
+    recorded.line = ++line;
+    text += recorded.sha256 + std::string(kSeparator) + name + "\n";
+  }
   pcrb::writeFileAtomically(path_, text);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 
@@ -15,16 +16,25 @@ class Checksums {
   /// Records a file's checksum when it is seen first, and verifies it later.
   ///
   /// @param name      of the file in the list.
-  /// @param expected  from the list of sources; empty where it is not known.
-  /// @throws pcrb::InvalidFile  if the file's checksum is another one.
+  /// @param expected  from the list of sources, which counts before what is recorded; empty = not
+  ///                  known.
+  /// @throws pcrb::InvalidFile  if the file's checksum is another one; says which line to delete if
+  ///                            the recorded one is of a damaged file.
   void check(const std::string& name, const std::string& path, const std::string& expected);
 
   /// A recorded checksum, or an empty text.
   std::string find(const std::string& name) const;
 
  private:
+  struct Recorded {
+    std::string sha256;
+    std::size_t line;  ///< of the list, from 1
+  };
+
+  void write();
+
   std::string path_;
-  std::map<std::string, std::string> sha256_of_;
+  std::map<std::string, Recorded> recorded_;  ///< by name
 };
 
 }  // namespace pcrb_tools
