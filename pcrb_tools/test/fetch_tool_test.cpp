@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_tools/fetch/sources.hpp"
-#include "pcrb_tools/fetch/unpack.hpp"
 #include "pcrb_tools/run_child.hpp"
 #include "support/file_servers.hpp"
 #include "support/log_folder.hpp"
@@ -164,6 +164,85 @@ TEST_F(FetchToolTest, DoesNotReplaceProblemsOfTheUsers) {
   EXPECT_EQ(readFile(folder_.file("root/eth/plain_local.txt")), "my own\n");
 }
 
+TEST_F(FetchToolTest, DoesNotReplaceACloudOfTheUsersUnlessForced) {
+  const std::string cloud = folder_.file("root/eth/plain/a.pcd");
+  std::string converted = kCloud;
+  converted.back() = ' ';
+  writeFile(cloud, converted);
+  EXPECT_FALSE(fetch());
+  EXPECT_TRUE(says("error: " + cloud + ": is there and is not what was published (" +
+                   folder_.file("logs/published/plain.zip") + "/plain/a.pcd); move it away, or"))
+      << output_;
+  EXPECT_EQ(readFile(cloud), converted);
+  options_.force = true;
+  EXPECT_TRUE(fetch()) << output_;
+  EXPECT_EQ(readFile(cloud), kCloud);
+}
+
+TEST_F(FetchToolTest, ADamagedDownloadIsNotRecordedAndTheMendedOneIsTaken) {
+  const std::string served = folder_.file("plain.zip");
+  const std::string whole = readFile(served);
+  pcrb_test::damage(served, 100);
+  EXPECT_FALSE(fetch());
+  EXPECT_TRUE(says("plain.zip.part: damaged or no archive")) << output_;
+  writeFile(served, whole);
+  EXPECT_TRUE(fetch()) << output_;
+}
+
+TEST_F(FetchToolTest, ARecordedSumOfADamagedFileIsNamedByTheLineToDelete) {
+  const std::string sums = folder_.file("logs/SHA256SUMS");
+  EXPECT_TRUE(fetch()) << output_;
+  const std::string text = readFile(sums);
+  const std::string problems_row = text.substr(0, text.find('\n') + 1);
+  writeFile(sums, problems_row + std::string(64, '0') + "  published/plain.zip\n");
+  fs::remove(folder_.file("logs/published/plain.zip"));
+  EXPECT_FALSE(fetch());
+  EXPECT_TRUE(says("recorded in " + sums +
+                   ":2; if that was of a damaged file, delete that line to take this one"))
+      << output_;
+  writeFile(sums, problems_row);
+  EXPECT_TRUE(fetch()) << output_;
+  EXPECT_EQ(readFile(sums), text);
+}
+
+TEST_F(FetchToolTest, BytesThatAreNoCloudGetNoCloudsName) {
+  const auto use = [&](const std::string& kind, const std::string& file) {
+    writeFile(options_.sources,
+              "sources:\n  - {data_set: eth, sequence: plain, set: published, kind: " + kind +
+                  ", file: " + file + ", url: \"" + servers_.http("/files/absent") + "\"}\n");
+  };
+  const std::string bytes = "published bytes, not even a cloud";
+  fs::create_directories(options_.logs);
+  pcrb_test::writeArchive(folder_.file("logs/a.zip"), {{"map.pcd", bytes}});
+  use("clouds", "a.zip");
+  EXPECT_FALSE(fetch());
+  EXPECT_TRUE(says("error: " + folder_.file("logs/a.zip/map.pcd:1: found"))) << output_;
+  writeFile(folder_.file("logs/map.pcd"), bytes);
+  use("cloud", "map.pcd");
+  EXPECT_FALSE(fetch());
+  EXPECT_TRUE(says("error: " + folder_.file("logs/map.pcd:1: found"))) << output_;
+  EXPECT_FALSE(fs::exists(folder_.file("root/eth/plain/map.pcd")));
+}
+
+TEST_F(FetchToolTest, EveryPublishedSequenceIsFetchedWithItsClouds) {
+  options_.sources = PCRB_TOOLS_FOLDER "/config/datasets.yaml";
+  options_.dry_run = true;
+  std::set<std::string> sequences;
+  for (const Source& source : readSources(options_.sources)) {
+    if (source.kind == SourceKind::kProblems) sequences.insert(source.name());
+  }
+  EXPECT_EQ(sequences.size(), 15U);
+  for (const std::string& sequence : sequences) {
+    options_.sequences = {sequence};
+    EXPECT_TRUE(fetch());
+    const bool is_map = sequence == "planetary/planetary_map";
+    EXPECT_TRUE(says((is_map ? "planetary/p2at_met" : sequence) + ": download ")) << output_;
+    EXPECT_TRUE(says(".zip\n")) << output_;
+    EXPECT_EQ(says("/box_map.pcd\n"), is_map || sequence == "planetary/p2at_met") << output_;
+    EXPECT_EQ(says("/p2at_met_local.txt\n"), sequence == "planetary/p2at_met") << output_;
+  }
+}
+
 TEST_F(FetchToolTest, ConvertsOriginalLogsAndPassesAFailureOn) {
   options_.original = true;
   options_.sequences = {"eth"};
@@ -262,86 +341,6 @@ TEST(ChildProcess, GivesItsExitStatusAndSaysIfItCannotBeRun) {
   EXPECT_EQ(runChild({"/bin/sh", "-c", "exit 7"}), 7);
   EXPECT_EQ(runChild({"/bin/sh", "-c", "kill -TERM $$"}), 128 + 15);
   EXPECT_THROW(runChild({"/absent/program"}), pcrb::InvalidFile);
-}
-
-TEST(Unpack, UsesTheLastPartOfNamesAndRefusesHostileOnes) {
-  const pcrb_test::TemporaryFolder folder;
-  const std::string archive = folder.file("a.zip");
-  const std::string target = folder.file("clouds");
-  pcrb_test::writeArchive(
-      archive,
-      {{"deep/er/a.pcd", "1"}, {"b.pcd", "22"}, {"run.sh", "x"}, {"__MACOSX/._b.pcd", "x"}});
-  EXPECT_EQ(unpackClouds(archive, "h1", target), 2U);
-  EXPECT_EQ(pcrb_test::namesIn(target), (std::vector<std::string>{"a.pcd", "b.pcd"}));
-  for (const char* name : {"../evil.pcd", "/tmp/evil.pcd", "a/../../evil.pcd"}) {
-    pcrb_test::writeArchive(archive, {{name, "1"}});
-    EXPECT_THROW(unpackClouds(archive, "h2", target), pcrb::InvalidFile) << name;
-  }
-  pcrb_test::writeArchive(archive, {{"x/a.pcd", "1"}, {"y/a.pcd", "2"}});
-  EXPECT_THROW(unpackClouds(archive, "h3", target), pcrb::InvalidFile);
-  pcrb_test::writeArchive(archive, {{"readme.txt", "1"}});
-  EXPECT_THROW(unpackClouds(archive, "h4", target), pcrb::InvalidFile);
-  EXPECT_EQ(pcrb_test::namesIn(folder.path()),
-            (std::vector<std::string>{"a.zip", "a.zip.unpacked", "clouds"}));
-}
-
-TEST(Unpack, ADamagedArchiveIsUnpackedAgainWhenItIsWhole) {
-  const pcrb_test::TemporaryFolder folder;
-  const std::string archive = folder.file("a.tgz");
-  pcrb_test::writeArchive(archive, {{"a.pcd", std::string(100000, 'a')}, {"b.pcd", "b"}});
-  const std::string whole = readFile(archive);
-  writeFile(archive, whole.substr(0, whole.size() / 2));
-  EXPECT_THROW(unpackClouds(archive, "h", folder.file("clouds")), pcrb::InvalidFile);
-  writeFile(archive, whole);
-  EXPECT_EQ(unpackClouds(archive, "h", folder.file("clouds")), 2U);
-}
-
-TEST(Sources, OfThePackageCoverAllPublishedSequences) {
-  const auto sources = readSources(PCRB_TOOLS_FOLDER "/config/datasets.yaml");
-  std::size_t problems = 0;
-  for (const Source& source : sources) problems += source.kind == SourceKind::kProblems ? 1 : 0;
-  EXPECT_EQ(problems, 30U);  // 15 lists for each kind
-}
-
-TEST(Sources, RejectsMistakesWithTheirLine) {
-  const pcrb_test::TemporaryFolder folder;
-  const std::string good =
-      "{data_set: d, sequence: s, set: both, kind: log, file: f, url: \"http://x\"}";
-  const auto error_of = [&](const std::string& entry) {
-    writeFile(folder.file("s.yaml"), "sources:\n  - " + good + "\n  - " + entry + "\n");
-    try {
-      readSources(folder.file("s.yaml"));
-    } catch (const pcrb::InvalidFile& error) {
-      return std::string(error.what()).substr(folder.path().size() + 1);
-    }
-    return std::string("accepted");
-  };
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string entry = good;
-    entry.replace(entry.find("file: f"), 7, "file: g");
-    entry.replace(entry.find(from), from.size(), to);
-    return entry;
-  };
-  EXPECT_EQ(error_of(good), "s.yaml:3: found f again, expected every file once");
-  EXPECT_EQ(error_of(with("file: g", "file: ../g")),
-            "s.yaml:3: found '../g', expected a name below its folder");
-  EXPECT_EQ(error_of(with("data_set: d", "data_set: /d")),
-            "s.yaml:3: found '/d', expected a name below its folder");
-  EXPECT_EQ(error_of(with("http://x", "file:///etc/passwd")),
-            "s.yaml:3: found 'file:///etc/passwd', expected an address of http, https or ftp");
-  EXPECT_EQ(error_of(with("kind: log", "kind: tape")),
-            "s.yaml:3: found 'tape', expected cloud, clouds, log, problems");
-  EXPECT_EQ(error_of(with("kind: log", "colour: red, kind: log")),
-            "s.yaml:3: found 'colour', expected a known key");
-  EXPECT_EQ(error_of(with("kind: log", "kind: log, bytes: many")),
-            "s.yaml:3: found 'many', expected a number of bytes");
-  EXPECT_EQ(error_of(with("kind: log", "kind: log, sha256: abc")),
-            "s.yaml:3: found 'abc', expected 64 hexadecimal digits");
-  EXPECT_EQ(error_of(with("kind: log, ", "")),
-            "s.yaml:3: found no kind, expected data_set, sequence, set, kind and file");
-  EXPECT_EQ(error_of(with("url: \"http://x\"", "by_hand: yes, url: \"http://x\"")),
-            "s.yaml:3: found both, expected either url or by_hand");
-  EXPECT_NE(error_of("[").find("expected YAML"), std::string::npos);
 }
 
 }  // namespace

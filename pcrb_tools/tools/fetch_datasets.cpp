@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
   app.add_flag("--original", options.original,
                "original logs, to make problems of one's own, instead of the published files");
   app.add_flag("--dry-run", options.dry_run, "only say what would be done");
+  app.add_flag("--force", options.force,
+               "replace clouds and problem files below ROOT that are not the published ones");
   app.add_flag("--fetch-only", fetch_only, "do not convert and check");
   app.add_option("--threads", options.threads, "of converters and check")
       ->check(CLI::Range(1, 1024))

@@ -1,13 +1,11 @@
 #include "pcrb_tools/fetch/fetch_tool.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include "content.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_tools/check_tool.hpp"
 #include "pcrb_tools/fetch/checksums.hpp"
@@ -15,38 +13,13 @@
 #include "pcrb_tools/fetch/unpack.hpp"
 #include "pcrb_tools/progress.hpp"
 #include "pcrb_tools/run_child.hpp"
+#include "put_file.hpp"
+#include "wanted_sources.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string nameOf(const Source& source) { return source.data_set + "/" + source.sequence; }
-
-bool isWanted(const FetchOptions& options, const Source& source) {
-  if (!(options.original ? source.is_original : source.is_published)) return false;
-  if (options.sequences.empty()) return true;
-  return std::any_of(
-      options.sequences.begin(), options.sequences.end(),
-      [&](const std::string& name) { return name == source.data_set || name == nameOf(source); });
-}
-
-std::vector<Source> findWanted(const FetchOptions& options) {
-  std::vector<Source> sources = readSources(options.sources);
-  for (const std::string& name : options.sequences) {
-    FetchOptions one = options;
-    one.sequences = {name};
-    if (std::none_of(sources.begin(), sources.end(),
-                     [&](const Source& source) { return isWanted(one, source); })) {
-      throw pcrb::InvalidParameter(options.sources + ": found no source of '" + name +
-                                   "', expected <data set> or <data set>/<sequence>");
-    }
-  }
-  sources.erase(std::remove_if(sources.begin(), sources.end(),
-                               [&](const Source& source) { return !isWanted(options, source); }),
-                sources.end());
-  return sources;
-}
 
 /// One run of the tool.
 class Fetch {
@@ -54,7 +27,7 @@ class Fetch {
   Fetch(const FetchOptions& options, std::ostream& out)
       : options_(options),
         out_(out),
-        sources_(findWanted(options)),
+        sources_(findWantedSources(options)),
         checksums_(options.logs + "/SHA256SUMS") {}
 
   bool run() {
@@ -66,7 +39,7 @@ class Fetch {
       } catch (const pcrb::Error& error) {
         out_ << "error: " << error.what() << std::endl;
         ++failures_;
-        incomplete_.insert(nameOf(source));
+        incomplete_.insert(source.name());
       }
     }
     out_ << sources_.size() - failures_ << " of " << sources_.size() << " files are there"
@@ -90,7 +63,7 @@ class Fetch {
 
   bool describe() const {
     for (const Source& source : sources_) {
-      out_ << nameOf(source) << ": ";
+      out_ << source.name() << ": ";
       const std::string by_hand = findByHand(source);
       if (fs::is_regular_file(pathOf(source))) {
         out_ << "is there: " << pathOf(source);
@@ -117,11 +90,13 @@ class Fetch {
         fs::remove(path);  // a link to a file that is gone
         fs::create_symlink(by_hand, path);
       } else if (source.url.empty()) {
-        throw pcrb::InvalidParameter(nameOf(source) + " cannot be downloaded: " + source.by_hand +
+        throw pcrb::InvalidParameter(source.name() + " cannot be downloaded: " + source.by_hand +
                                      "; there = " + path + ", or a folder for --from");
       } else {
         downloadTo(source, path);
       }
+    } else if (checksums_.find(source.file).empty()) {
+      requireContent(source, path);  // put there by hand
     }
     checksums_.check(source.file, path, source.sha256);
   }
@@ -139,14 +114,15 @@ class Fetch {
   }
 
   void install(const Source& source) {
-    const std::string folder = options_.root + "/" + nameOf(source);
+    const std::string folder = options_.root + "/" + source.name();
     switch (source.kind) {
       case SourceKind::kLog:
         addLog(source);
         return;
       case SourceKind::kClouds: {
-        Progress progress(nameOf(source), "clouds", 0);
-        unpackClouds(pathOf(source), checksums_.find(source.file), folder, [&] { progress.add(); });
+        Progress progress(source.name(), "clouds", 0);
+        unpackClouds(pathOf(source), checksums_.find(source.file), folder, options_.force,
+                     [&] { progress.add(); });
         progress.finish();
         break;
       }
@@ -156,29 +132,21 @@ class Fetch {
       case SourceKind::kProblems:
         copy(pathOf(source), options_.root + "/" + source.data_set + "/" +
                                  fs::path(source.file).filename().string());
-        with_problems_.insert(nameOf(source));
+        with_problems_.insert(source.name());
         break;
     }
   }
 
   /// Converters find text files, such as poses, beside the log that they belong to.
   void addLog(const Source& source) {
-    SequenceLog& log = logs_[nameOf(source)];
+    SequenceLog& log = logs_[source.name()];
     log.data_set = source.data_set;
     log.sequence = source.sequence;
     if (fs::path(source.file).extension() != ".txt") log.inputs.push_back(pathOf(source));
   }
 
-  /// Never replaces a file that is something else: it may be the user's own.
-  static void copy(const std::string& from, const std::string& to) {
-    const pcrb::FileBytes bytes(from);
-    if (fs::exists(to)) {
-      if (pcrb::FileBytes(to).text() == bytes.text()) return;
-      throw pcrb::InvalidFile(
-          to, "is there and is not what was published (" + from + "); move it away first");
-    }
-    fs::create_directories(fs::path(to).parent_path());
-    pcrb::writeFileAtomically(to, bytes.text());
+  void copy(const std::string& from, const std::string& to) const {
+    putPublishedFile(to, pcrb::FileBytes(from).text(), from, options_.force);
   }
 
   bool prepare() const {
@@ -218,6 +186,7 @@ bool runConverter(const SequenceLog& log, const FetchOptions& options) {
   command.insert(command.end(), log.inputs.begin(), log.inputs.end());
   command.insert(command.end(), {"--root", options.root, "--sequence", log.sequence, "--threads",
                                  std::to_string(options.threads)});
+  if (options.force) command.push_back("--force");
   return runChild(command) == 0;
 }
 

@@ -33,6 +33,7 @@ class SourceReader {
       if (!list || !list.IsSequence()) fail(list, "no list", "`sources`, a list of files");
       std::vector<Source> sources;
       for (const YAML::Node& node : list) sources.push_back(readSource(node));
+      for (std::size_t i = 0; i < sources.size(); ++i) requireNeeded(list[i], sources[i], sources);
       return sources;
     } catch (const YAML::Exception& error) {
       throw pcrb::InvalidFile(path_, lineOf(error.mark), error.msg, "YAML");
@@ -101,6 +102,7 @@ class SourceReader {
         {"file", [&](const YAML::Node& value) { source.file = plainName(value); }},
         {"url", [&](const YAML::Node& value) { source.url = url(value); }},
         {"by_hand", [&](const YAML::Node& value) { source.by_hand = text(value); }},
+        {"needs", [&](const YAML::Node& value) { source.needs = text(value); }},
         {"sha256", [&](const YAML::Node& value) { source.sha256 = sha256(value); }},
         {"bytes", [&](const YAML::Node& value) { source.bytes = bytes(value); }},
         {"google_drive",
@@ -140,6 +142,13 @@ class SourceReader {
       fail(node, source.url.empty() ? "neither" : "both", "either url or by_hand");
     }
     if (!files_.insert(source.file).second) fail(node, source.file + " again", "every file once");
+  }
+
+  void requireNeeded(const YAML::Node& node, const Source& source,
+                     const std::vector<Source>& all) const {
+    const auto is_needed = [&](const Source& other) { return other.name() == source.needs; };
+    if (source.needs.empty() || std::any_of(all.begin(), all.end(), is_needed)) return;
+    fail(node["needs"], pcrb::inQuotes(source.needs), "<data set>/<sequence> of this list");
   }
 
   std::string path_;

@@ -5,46 +5,49 @@
 #include <map>
 #include <string_view>
 
+#include "file_identity.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/pcd.hpp"
 #include "pcrb_tools/archive_reader.hpp"
+#include "put_file.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxCloudBytes = 4000000000;
+/// Three million points as text; the published clouds have at most a tenth of that.
+constexpr std::uint64_t kMaxCloudBytes = std::uint64_t{1} << 27;
 
-/// Sizes of the unpacked clouds by name.
-using Clouds = std::map<std::string, std::uintmax_t>;
+/// What tells the unpacked clouds from others of their names, by name.
+using Clouds = std::map<std::string, std::string>;
 
 std::string listFile(const std::string& archive) { return archive + ".unpacked"; }
 
+std::string formatRow(const std::string& name, const std::string& identity) {
+  return identity + " " + name + "\n";
+}
+
 std::string formatList(const std::string& sha256, const std::string& folder, const Clouds& clouds) {
   std::string text = "archive " + sha256 + "\nfolder " + folder + "\n";
-  for (const auto& [name, bytes] : clouds) text += std::to_string(bytes) + " " + name + "\n";
+  for (const auto& [name, identity] : clouds) text += formatRow(name, identity);
   return text;
 }
 
-/// What the folder holds of the clouds that a list names.
-std::size_t countKept(const std::string& archive, const std::string& sha256,
-                      const std::string& folder) {
-  if (!fs::is_regular_file(listFile(archive)) || !fs::is_directory(folder)) return 0;
-  Clouds present;
+/// The clouds of the folder that are still as a list has them.
+Clouds findUnchanged(std::string_view list, const std::string& folder) {
+  Clouds unchanged;
+  if (list.empty() || !fs::is_directory(folder)) return unchanged;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file()) present[entry.path().filename().string()] = entry.file_size();
+    const std::string name = entry.path().filename().string();
+    const std::string identity = fileIdentity(entry.path().string());
+    if (list.find("\n" + formatRow(name, identity)) != std::string_view::npos) {
+      unchanged[name] = identity;
+    }
   }
-  // Other files of the folder, such as a map, are not in the list: compare what it names.
-  const pcrb::FileBytes bytes(listFile(archive));
-  const std::string_view text = bytes.text();
-  Clouds listed;
-  for (const auto& [name, size] : present) {
-    const std::string row = "\n" + std::to_string(size) + " " + name + "\n";
-    if (text.find(row) != std::string_view::npos) listed[name] = size;
-  }
-  return formatList(sha256, folder, listed) == text ? listed.size() : 0;
+  return unchanged;
 }
 
 bool isCloud(const fs::path& path) {
@@ -54,10 +57,12 @@ bool isCloud(const fs::path& path) {
 }  // namespace
 
 std::size_t unpackClouds(const std::string& archive, const std::string& sha256,
-                         const std::string& folder, const std::function<void()>& on_cloud) {
-  const std::size_t kept = countKept(archive, sha256, folder);
-  if (kept > 0) return kept;
-  fs::create_directories(folder);
+                         const std::string& folder, bool force,
+                         const std::function<void()>& on_cloud) {
+  std::string list;
+  if (fs::is_regular_file(listFile(archive))) list = pcrb::FileBytes(listFile(archive)).text();
+  const Clouds unchanged = findUnchanged(list, folder);
+  if (!unchanged.empty() && formatList(sha256, folder, unchanged) == list) return unchanged.size();
   ArchiveReader reader(archive);
   Clouds clouds;
   while (reader.next()) {
@@ -68,8 +73,11 @@ std::size_t unpackClouds(const std::string& archive, const std::string& sha256,
       throw pcrb::InvalidFile(archive, 0, "two entries '" + name + "'", "every cloud once");
     }
     const std::string bytes = reader.read(kMaxCloudBytes);
-    pcrb::writeFileAtomically(folder + "/" + name, bytes);
-    clouds[name] = bytes.size();
+    const std::string origin = archive + "/" + reader.name();
+    pcrb::parsePcd(bytes.data(), bytes.data() + bytes.size(), origin);
+    const std::string path = folder + "/" + name;
+    putPublishedFile(path, bytes, origin, force || unchanged.count(name) > 0);
+    clouds[name] = fileIdentity(path);
     if (on_cloud) on_cloud();
   }
   if (clouds.empty()) throw pcrb::InvalidFile(archive, 0, "no .pcd file", "an archive of clouds");

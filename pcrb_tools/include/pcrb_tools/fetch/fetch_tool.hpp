@@ -25,6 +25,7 @@ struct FetchOptions {
   std::vector<std::string> sequences;  ///< `<data set>` or `<data set>/<sequence>`; empty = all
   bool original = false;               ///< original logs instead of the published files
   bool dry_run = false;                ///< only say what would be done
+  bool force = false;                  ///< replace files of the layout that are something else
   bool prepare = true;                 ///< convert and check what was fetched
   int threads = 1;                     ///< of the check
   /// Converts a log into the common layout; returns whether it succeeded.

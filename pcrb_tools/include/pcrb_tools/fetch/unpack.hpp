@@ -10,15 +10,17 @@ namespace pcrb_tools {
 ///
 /// Of an entry's name only the last part is used; entries of other kinds and links are passed over.
 /// What was unpacked is listed in `<archive>.unpacked`: an archive that was unpacked completely,
-/// into files that are still there, is not unpacked again.
+/// into files that are unchanged, is not unpacked again. A file gets its name only after it has
+/// been read as a cloud.
 ///
 /// @param sha256    of the archive.
+/// @param force     replace clouds that are something else and were not unpacked from this archive.
 /// @param on_cloud  called after each file.
 /// @return          number of clouds.
-/// @throws pcrb::InvalidFile  if the archive is damaged, an entry's name points out of it, two
-/// entries
-///                            have one name, an entry is larger than 4 GB, or there is no cloud.
+/// @throws pcrb::InvalidFile  if the archive is damaged or hostile, an entry is no cloud or would
+///                            replace something else, two have one name, or there is no cloud.
 std::size_t unpackClouds(const std::string& archive, const std::string& sha256,
-                         const std::string& folder, const std::function<void()>& on_cloud = {});
+                         const std::string& folder, bool force = false,
+                         const std::function<void()>& on_cloud = {});
 
 }  // namespace pcrb_tools
