@@ -100,6 +100,23 @@ class RepliesTest(TestCase):
         # One before `ready`, and these; not the one to another problem, nor the duplicates.
         self.assertEqual(server.rows()[0]['replies_rejected'], 1 + len(wrong))
 
+    def test_a_transform_that_is_not_finite_connects_nothing_and_ends_nothing(self):
+        server, client = self.kitchen()
+        static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
+        wait_until(static.get_num_connections, 'the server listens to tf')
+        static.publish([transform_message('map', frame, rospy.Time(), maths.transform(np.eye(3), [x, 0, 0]))
+                        for frame, x in (('near', 1), ('far', math.inf))])
+
+        def answer(client, problem):
+            """Once `near` is known to the server, so is `far`."""
+            if problem.index > 0:
+                self.assert_code(client.submit(problem, stamped('far')), Code.NO_TRANSFORM, '`far`')
+            wait_until(lambda: client.submit(problem, stamped('near')).accepted, 'the server knows the frame')
+
+        client.serve(server, answer)
+        self.assert_ends_well(server)
+        self.assertEqual([(row['outcome'], row['replies_rejected']) for row in server.rows()][1:], [('replied', 1)] * 5)
+
     def test_a_problem_without_a_valid_reply_is_scored_with_the_guess_and_counted_apart(self):
         server, client = self.kitchen(time_limit=0.3)
 

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <limits>
 #include <thread>
+
+#include "pcrb_core/error.hpp"
 
 namespace pcrb {
 namespace {
@@ -115,6 +118,8 @@ TEST_F(ExchangeTest, RejectsNumbersThatAreNotFinite) {
   request = validReply();
   request.covariance[35] = std::nan("");
   request.has_covariance = 1;
+  EXPECT_EQ(submit(request), Response::NOT_FINITE);
+  request.covariance[35] = 1e300;  // turning it into the target's frame would overflow
   EXPECT_EQ(submit(request), Response::NOT_FINITE);
   request.has_covariance = 0;
   EXPECT_EQ(submit(request), Response::OK);
@@ -273,6 +278,67 @@ TEST(Exchange, ComposesARepliesPoseWithTheTransformOfItsFrame) {
   exchange.waitReply(reply);
   EXPECT_LT((reply.position - Eigen::Vector3d(10, 1.5, 0)).norm(), 1e-12);
   EXPECT_NEAR(reply.orientation.z(), std::sqrt(0.5), 1e-12);
+}
+
+/// Hands problem `a` out, whose reply comes in `odom`; tf says what `T_map_odom` is.
+class ExchangeWithTf : public testing::Test {
+ protected:
+  void SetUp() override {
+    exchange_.announce("a", kStamp);
+    exchange_.handOut(kLong);
+    request_.pose.header.frame_id = "odom";
+  }
+
+  Transform T_map_odom_ = Transform::Identity();
+  Exchange exchange_{"map", [this](const std::string&, const ros::Time&) {
+                       if (!T_map_odom_.translation().allFinite()) throw Error("not finite");
+                       return std::make_optional(T_map_odom_);
+                     }};
+  Request request_ = validReply();
+  Response response_;
+  Reply reply_;
+};
+
+TEST_F(ExchangeWithTf, ALookUpThatThrowsDoesNotKeepTheProblemFromEnding) {
+  T_map_odom_.translation().x() = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(exchange_.submit(request_, response_), Error);
+  exchange_.handOut(kShort);
+  auto wait = std::async(std::launch::async, [this] { return exchange_.waitReply(reply_); });
+  wait.wait_for(std::chrono::seconds(10));
+  exchange_.stop();  // one that goes on for ever
+  EXPECT_EQ(wait.get(), Wait::kLimit);
+  EXPECT_EQ(reply_.outcome, Outcome::kTimedOut);
+}
+
+TEST_F(ExchangeWithTf, RejectsAPoseThatTfMakesHuge) {
+  T_map_odom_.translation().x() = 1e300;
+  exchange_.submit(request_, response_);
+  EXPECT_EQ(response_.code, Response::NOT_FINITE);
+  T_map_odom_.translation().x() = 1e99;
+  exchange_.submit(request_, response_);
+  EXPECT_EQ(response_.code, Response::OK);
+}
+
+TEST_F(ExchangeWithTf, TurnsTheCovarianceWithThePose) {
+  using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+  T_map_odom_ = makeTransform({10, 0, 0}, Eigen::Quaterniond(turn));
+  request_.has_covariance = 1;
+  Matrix6 in_odom;
+  for (int i = 0; i < 36; ++i) in_odom(i / 6, i % 6) = 1.0 + i * i % 17;
+  std::copy_n(in_odom.data(), 36, request_.covariance.begin());
+  exchange_.submit(request_, response_);
+  ASSERT_EQ(response_.code, Response::OK);
+  exchange_.waitReply(reply_);
+  const Matrix6 in_map = Eigen::Map<const Matrix6>(reply_.covariance->data());
+  for (const int row : {0, 3}) {
+    for (const int column : {0, 3}) {
+      const Eigen::Matrix3d block = in_odom.block<3, 3>(row, column);
+      const Eigen::Matrix3d expected =
+          turn.toRotationMatrix() * block * turn.toRotationMatrix().transpose();
+      EXPECT_LT((in_map.block<3, 3>(row, column) - expected).norm(), 1e-12);
+    }
+  }
 }
 
 TEST(Exchange, WaitsForTheTransformOfAReplyThatCameInTime) {

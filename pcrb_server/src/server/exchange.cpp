@@ -134,10 +134,35 @@ Rejection Exchange::noTransform(const Request& request) const {
                                       target_frame_ + "`"};
 }
 
-std::optional<Transform> Exchange::toTarget(const Request& request) const {
+/// Lets others in while a reply waits for tf, and counts it among those that waitReply() waits for,
+/// until its look-up is over, however that ends.
+class Exchange::LookingUp {
+ public:
+  LookingUp(Exchange& exchange, std::unique_lock<std::mutex>& lock)
+      : exchange_(exchange), lock_(lock) {
+    ++exchange_.looking_up_;
+    lock_.unlock();
+  }
+  ~LookingUp() {
+    lock_.lock();
+    --exchange_.looking_up_;
+    exchange_.changed_.notify_all();
+  }
+  LookingUp(const LookingUp&) = delete;
+  LookingUp& operator=(const LookingUp&) = delete;
+
+ private:
+  Exchange& exchange_;
+  std::unique_lock<std::mutex>& lock_;
+};
+
+std::optional<Transform> Exchange::toTarget(const Request& request,
+                                            std::unique_lock<std::mutex>& lock) {
+  const ros::Time stamp = stamp_;  // another thread's, once the lock is open
+  const LookingUp looking_up(*this, lock);
   const std::string frame = withoutSlash(request.pose.header.frame_id);
   const bool has_stamp = !request.pose.header.stamp.isZero();
-  return lookup_(frame, has_stamp ? request.pose.header.stamp : stamp_);
+  return lookup_(frame, has_stamp ? request.pose.header.stamp : stamp);
 }
 
 void Exchange::submit(const Request& request, Response& response) {
@@ -146,14 +171,10 @@ void Exchange::submit(const Request& request, Response& response) {
   auto rejection = check(request, arrival);
   std::optional<Transform> T_target_frame;
   if (!rejection && request.status == Request::POSE && isElsewhere(request)) {
-    ++looking_up_;
-    lock.unlock();  // tf may make us wait, and nobody else must
-    T_target_frame = toTarget(request);
-    lock.lock();
-    --looking_up_;
-    changed_.notify_all();
+    T_target_frame = toTarget(request, lock);
     rejection = check(request, arrival);  // the problem may have ended
     if (!rejection && !T_target_frame) rejection = noTransform(request);
+    if (!rejection) rejection = checkPlaced(request, *T_target_frame);
   }
   response.accepted = rejection ? 0 : 1;
   response.code = rejection ? rejection->code : std::uint8_t{Response::OK};

@@ -55,13 +55,15 @@ class Exchange {
   std::string client() const;
 
  private:
+  class LookingUp;
   enum class Phase { kIdle, kAnnounced, kHandedOut, kRunOver };
 
   std::optional<Rejection> check(const pcrb_msgs::SubmitPose::Request& request,
                                  Clock::time_point arrival) const;
   bool isElsewhere(const pcrb_msgs::SubmitPose::Request& request) const;
   Rejection noTransform(const pcrb_msgs::SubmitPose::Request& request) const;
-  std::optional<Transform> toTarget(const pcrb_msgs::SubmitPose::Request& request) const;
+  std::optional<Transform> toTarget(const pcrb_msgs::SubmitPose::Request& request,
+                                    std::unique_lock<std::mutex>& lock);
   void accept(const pcrb_msgs::SubmitPose::Request& request, Clock::time_point arrival,
               const std::optional<Transform>& T_target_frame);
   Wait waitFor(std::unique_lock<std::mutex>& lock, Clock::time_point deadline,

@@ -26,7 +26,8 @@ struct Reply {
   std::uint32_t rejected = 0;     ///< rejected replies to this problem before it ended
 };
 
-/// What an accepted request says, its quaternion normalised; online and offline alike.
+/// What an accepted request says, its quaternion normalised, pose and covariance in the target's
+/// frame; online and offline alike.
 ///
 /// @param T_target_frame  from the frame of its pose; nothing where that is the target's.
 Reply makeReply(const pcrb_msgs::SubmitPose::Request& request,

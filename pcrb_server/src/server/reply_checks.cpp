@@ -13,15 +13,16 @@ using Response = pcrb_msgs::SubmitPose::Response;
 constexpr double kUnitQuaternionTolerance = 1e-3;
 constexpr double kLargestNumber = 1e100;  // beyond it, composing transforms may overflow
 
+bool isComposable(double number) { return std::abs(number) <= kLargestNumber; }
+
 bool isFinite(const Request& request) {
   const auto& p = request.pose.pose.position;
   const auto& q = request.pose.pose.orientation;
   for (const double number : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) {
-    if (!(std::abs(number) <= kLargestNumber)) return false;
+    if (!isComposable(number)) return false;
   }
   return request.has_covariance == 0 ||
-         std::all_of(request.covariance.begin(), request.covariance.end(),
-                     [](double number) { return std::isfinite(number); });
+         std::all_of(request.covariance.begin(), request.covariance.end(), isComposable);
 }
 
 std::optional<Rejection> checkPose(const Request& request) {
@@ -55,6 +56,14 @@ std::optional<Rejection> checkContent(const Request& request) {
                                                ", expected 0 or more, 0 for unknown"};
   }
   return request.status == Request::POSE ? checkPose(request) : std::nullopt;
+}
+
+std::optional<Rejection> checkPlaced(const Request& request, const Transform& T_target_frame) {
+  const auto& p = request.pose.pose.position;
+  const Eigen::Vector3d placed = T_target_frame * Eigen::Vector3d(p.x, p.y, p.z);
+  if (std::all_of(placed.begin(), placed.end(), isComposable)) return std::nullopt;
+  return Rejection{Response::NOT_FINITE,
+                   "found an infinite or huge number in the pose after tf, expected finite ones"};
 }
 
 }  // namespace pcrb

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "pcrb_core/transform.hpp"
+
 namespace pcrb {
 
 /// Why a reply is not taken, as the response of SubmitPose says it.
@@ -20,5 +22,9 @@ struct Rejection {
 /// @return  nothing if it can be taken. A reply without a pose (status FAILED or TIMED_OUT) is
 ///          checked for its status and solver time alone.
 std::optional<Rejection> checkContent(const pcrb_msgs::SubmitPose::Request& request);
+
+/// Checks that a pose that passed checkContent() can still be scored in the target's frame.
+std::optional<Rejection> checkPlaced(const pcrb_msgs::SubmitPose::Request& request,
+                                     const Transform& T_target_frame);
 
 }  // namespace pcrb

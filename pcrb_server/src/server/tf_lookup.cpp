@@ -3,6 +3,7 @@
 #include <chrono>
 #include <thread>
 
+#include "pcrb_core/error.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
@@ -37,6 +38,8 @@ std::optional<Transform> TfLookup::operator()(const std::string& frame, const ro
     return fromMessage(buffer_.lookupTransform(target_frame_, frame, stamp).transform);
   } catch (const tf2::TransformException&) {
     return std::nullopt;  // gone between the check and the look-up
+  } catch (const Error&) {
+    return std::nullopt;  // an infinite translation, which tf2 takes for one
   }
 }
 

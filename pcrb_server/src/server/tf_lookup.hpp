@@ -18,7 +18,8 @@ class TfLookup {
   /// @param keep  s of transforms to remember: a reply refers to its problem's stamp.
   TfLookup(std::string target_frame, double keep);
 
-  /// T_target_frame at `stamp`, waiting up to 0.5 s for it. A few callers may wait at a time;
+  /// T_target_frame at `stamp`, waiting up to 0.5 s for it; nothing if tf does not connect the two
+  /// or holds numbers between them that are not finite. A few callers may wait at a time;
   /// further ones are answered from what is known, so that a flood cannot occupy every service
   /// thread.
   std::optional<Transform> operator()(const std::string& frame, const ros::Time& stamp);
