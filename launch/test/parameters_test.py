@@ -165,6 +165,15 @@ class ParametersTest(TestCase):
         self.assert_ends_well(self.start(Child(node.command, server.namespace)))
         self.assert_ends_well(server)
 
+    def test_frames_may_begin_with_a_slash_and_not_be_empty(self):
+        server = self.server(self.data, sequences='kitchen', map_frame='/world')
+        self.client(server).serve(server)
+        self.assert_ends_well(server)
+        self.assertEqual({(row['outcome'], row['replies_rejected']) for row in server.rows()}, {('replied', 0)})
+        self.assert_fails(self.server(self.data, map_frame='/', scan_frame=''), '~map_frame: expected a name',
+                          '~scan_frame: expected a name', '3 mistakes')
+        self.assert_fails(self.server(self.data, map_frame='/scan', scan_frame='scan'), 'two different names')
+
     def test_a_run_whose_problem_file_has_changed_is_refused(self):
         server = self.finished(self.server(self.data, subset=2))
         path = self.data.folder('kitchen_local.txt')

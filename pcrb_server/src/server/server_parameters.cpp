@@ -5,6 +5,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_server/frame_name.hpp"
 #include "pcrb_server/node_parameters.hpp"
 
 namespace pcrb {
@@ -78,11 +79,14 @@ void readProtocol(NodeParameters& reader, ServerParameters& parameters) {
   parameters.upright = reader.boolean("upright", false);
   parameters.debug = reader.boolean("debug", false);
   parameters.autostart = reader.boolean("autostart", true);
-  parameters.map_frame = reader.string("map_frame", "map");
-  parameters.scan_frame = reader.string("scan_frame", "pcrb_scan");
+  parameters.map_frame = withoutSlash(reader.string("map_frame", "map"));
+  parameters.scan_frame = withoutSlash(reader.string("scan_frame", "pcrb_scan"));
   parameters.publish_tf = reader.boolean("publish_tf", true);
-  if (parameters.map_frame.empty() || parameters.map_frame == parameters.scan_frame) {
-    reader.addMistake("~map_frame and ~scan_frame: expected two different names");
+  if (parameters.map_frame.empty()) reader.addMistake("~map_frame: expected a name");
+  if (parameters.scan_frame.empty()) reader.addMistake("~scan_frame: expected a name");
+  if (parameters.map_frame == parameters.scan_frame) {
+    reader.addMistake("~map_frame and ~scan_frame: expected two different names, found `" +
+                      parameters.map_frame + "` for both");
   }
 }
 
