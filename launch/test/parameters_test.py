@@ -11,7 +11,7 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, Launch, TestCase, executable, rows, run_info
+from pcrb_testing import Child, Launch, TestCase, executable, rows, run_info, wait_until
 
 
 class ParametersTest(TestCase):
@@ -116,7 +116,7 @@ class ParametersTest(TestCase):
         rospy.set_param(rospy.get_name(), {'method': 'gicp'})
         server = self.start(server.again())
         client.serve(server)
-        self.assert_fails(server, r'with the parameters `\[method:icp\]`, found `\[method:gicp\]`: give another')
+        self.assert_fails(server, r'client_parameters: the run has `\[method:icp\]`, asked for `\[method:gicp\]`')
         rospy.set_param(rospy.get_name(), {'method': 'icp'})
         server = self.start(server.again())
         client.serve(server)
@@ -164,6 +164,26 @@ class ParametersTest(TestCase):
         server = self.start(server.again(run=self.path('another')))
         self.assert_ends_well(self.start(Child(node.command, server.namespace)))
         self.assert_ends_well(server)
+
+    def test_a_run_goes_on_only_with_the_client_that_its_results_are_from(self):
+        server = self.server(self.data, sequences='kitchen', namespace='/pcrb')
+        self.client(server).serve(server, limit=2)
+        server.kill()
+        server = self.start(server.again())
+        self.start(Child([executable('pcrb_tools', 'minimal_client'), '__name:=beta']))
+        self.assert_fails(server, f'client: the run has `{rospy.get_name()}`, asked for `/beta`')
+        self.assertEqual(len(server.rows()), 2)
+
+    def test_without_a_handshake_those_who_listen_are_recorded_as_clients(self):
+        server = self.server(self.data, sequences='kitchen', handshake='none')
+        client = self.client(server)
+        for _ in self.data.of('local', 'kitchen'):
+            problem = client.next_problem()
+            wait_until(lambda: client.has('source', problem.header.stamp), 'the source comes')
+            client.submit(problem)
+        self.assert_ends_well(server)
+        self.assertEqual(run_info(server.run)['client'], rospy.get_name())
+        self.assertEqual(run_info(server.run)['client_parameters'], '')
 
     def test_frames_may_begin_with_a_slash_and_not_be_empty(self):
         server = self.server(self.data, sequences='kitchen', map_frame='/world')

@@ -10,6 +10,7 @@ import time
 
 import rospy
 import rostest
+from pcrb_msgs.srv import SubmitPoseResponse
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
@@ -137,6 +138,21 @@ class SurvivalTest(TestCase):
         client.serve(first)
         self.assert_ends_well(first)
         self.assert_rows_of(first.run, self.problems)
+
+    def test_a_reply_to_a_server_that_was_killed_is_to_an_unknown_problem_of_the_next(self):
+        server = self.server(self.data, sequences='kitchen')
+        client = self.client(server)
+        slow = client.next_problem()
+        client.take_source(slow)
+        server.kill()
+        server = self.start(server.again())
+        again = client.next_problem()  # the same one
+        self.assertEqual(client.submit(slow).code, SubmitPoseResponse.UNKNOWN_PROBLEM)
+        client.take_source(again)
+        client.submit(again)
+        client.serve(server)
+        self.assert_ends_well(server)
+        self.assertEqual({(row['outcome'], row['replies_rejected']) for row in server.rows()}, {('replied', 0)})
 
     def mount_small_disk(self):
         """A folder that holds 1 MB."""

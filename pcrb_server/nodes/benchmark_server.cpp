@@ -10,14 +10,15 @@ const pcrb::NodeHelp kHelp{"benchmark_server",
                            R"(Private parameters (default):
   root              folder in the common layout: <root>/<data set>/<sequence>_<kind>.txt and clouds
   run               folder of the results; with results of the same configuration the run goes on
-  under_test ()     name of what is benchmarked; a run goes on only under the same
+  under_test ()     name of what is benchmarked; a run goes on only under the same, and with a client
+                    of the same private parameters and, if this is empty, of the same node name
   sequences (all)   sequences, data sets or data_set/sequence, separated by blanks
   kind (local)      local, global or both
   presentation (registration)  registration or localization
   subset (0)        number of problems drawn over all sequences, 0 = all;  seed (1) of that draw
   shard (0/1)       i/N: serve the i-th of N disjoint parts
   time_limit (10)   s from a source's publication to its reply
-  handshake (ready) ready: a client calls `ready`;  none: whoever subscribes to `problem`
+  handshake (ready) ready: a client calls `ready`;  none: whoever subscribes to `problem`, by any name
   connect_limit (60), ready_limit (60)  s to wait for the first `ready`, for each further one
   global_guess (false)  give an initial guess for global problems too
   upright (false)   localization without VIEWPOINT: turn scans about z only; gives the tilt away

@@ -59,7 +59,7 @@ struct OfflineRun::Impl {
         record(parameters, plan, secretOf(given)),
         poser(parameters, record.secret()) {
     poser.checkFrames(plan.problems);
-    record.requireClient(options.client);
+    record.noteClient(options.client, "");
   }
 
   Reply replyTo(const PosedProblem& posed, const OfflineReply& given) const {

@@ -133,12 +133,14 @@ void BenchmarkServer::waitForListener() {
     }
     std::this_thread::sleep_for(kPollPeriod);
   }
+  // Those of the first problem: whoever only looks may come later.
+  if (clients_.empty() && !shutdown_.requested()) noteClients(publications_.listeners());
 }
 
 Announcement BenchmarkServer::nextAnnouncement(const PreparedProblem& prepared) {
   last_stamp_ = std::max(ros::Time::now(), last_stamp_ + ros::Duration(0, 1));
   Announcement announcement;
-  announcement.problem_id = record_.secret().publicId(prepared.planned->subject());
+  announcement.problem_id = record_.publicId(*prepared.planned);
   announcement.stamp = last_stamp_;
   announcement.index = static_cast<std::uint32_t>(done_);
   announcement.count = static_cast<std::uint32_t>(plan_.problems.size());
@@ -188,9 +190,16 @@ bool BenchmarkServer::waitForClient() {
     std::cout << "waiting for a client to call " << service << " (subscribed: " << listeners << ")"
               << std::endl;
   }
-  const std::string client = exchange_.client();  // nobody's if the problem was skipped
-  if (is_first && !client.empty()) record_.noteClient(client, parametersOf(client));
+  if (!exchange_.client().empty()) noteClients({exchange_.client()});  // empty: it was skipped
   return true;
+}
+
+void BenchmarkServer::noteClients(const std::set<std::string>& names) {
+  if (names == clients_) return;
+  clients_ = names;
+  std::string parameters;
+  for (const auto& name : names) parameters += parametersOf(name);
+  record_.noteClient(join(names), parameters);
 }
 
 /// @param had_readers  before the summary was published: they may have left by now.

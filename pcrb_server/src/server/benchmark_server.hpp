@@ -5,6 +5,7 @@
 #include <ros/spinner.h>
 
 #include <atomic>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ class BenchmarkServer {
   void waitForListener();
   bool serve(PreparedProblem prepared);
   bool waitForClient();
+  void noteClients(const std::set<std::string>& names);
   Announcement nextAnnouncement(const PreparedProblem& prepared);
   void waitForReaders(bool had_readers);
   bool conclude();
@@ -55,7 +57,8 @@ class BenchmarkServer {
   RunPlan plan_;
   RunRecord record_;
   std::vector<PlannedProblem> remaining_;
-  std::size_t done_ = 0;  ///< problems that have a result
+  std::set<std::string> clients_;  ///< who answers, as far as it is recorded
+  std::size_t done_ = 0;           ///< problems that have a result
   ros::Time last_stamp_;
   std::atomic<bool> is_paused_;
 

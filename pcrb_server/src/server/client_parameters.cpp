@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <locale>
+#include <set>
 #include <sstream>
+#include <string>
 #include <thread>
 
 namespace pcrb {
@@ -21,13 +23,14 @@ std::string parametersOf(const std::string& node) {
 void checkClientOfFinishedRun(RunRecord& record, const Publications& publications,
                               const ShutdownNotice& shutdown, double limit) {
   constexpr auto kPollPeriod = std::chrono::milliseconds(20);
-  const std::string client = record.client();
+  const std::set<std::string> clients = record.clients();
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
-  while (publications.listeners().count(client) == 0) {
-    if (shutdown.requested() || std::chrono::steady_clock::now() >= end) return;
+  while (!shutdown.requested() && std::chrono::steady_clock::now() < end) {
+    for (const auto& name : publications.listeners()) {
+      if (clients.count(name) > 0) return record.noteClient(name, parametersOf(name));
+    }
     std::this_thread::sleep_for(kPollPeriod);
   }
-  record.noteClient(client, parametersOf(client));
 }
 
 }  // namespace pcrb

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <chrono>
+#include <iterator>
+#include <sstream>
 
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
@@ -13,6 +15,8 @@ namespace pcrb {
 namespace {
 
 constexpr const char* kMetricVersion = "1";
+constexpr const char* kClient = "client";
+constexpr const char* kClientParameters = "client_parameters";
 constexpr const char* kNodeCpuTime = "node_cpu_time_s";
 constexpr const char* kNodePeakMemory = "node_peak_memory_bytes";
 
@@ -32,6 +36,25 @@ std::map<std::string, std::string> identity(const ServerParameters& parameters,
   info["metric_version"] = kMetricVersion;
   for (const auto& [name, hash] : plan.problem_files) info["problem_file " + name] = hash;
   return info;
+}
+
+/// A line for each key that does not have the expected value.
+std::string differencesOf(const std::map<std::string, std::string>& found,
+                          const std::map<std::string, std::string>& expected) {
+  std::string differences;
+  for (const auto& [key, value] : expected) {
+    const auto there = found.find(key);
+    const std::string before = there == found.end() ? "nothing" : "`" + there->second + "`";
+    if (there != found.end() && there->second == value) continue;
+    differences += "\n  " + key + ": the run has " + before + ", asked for `" + value + "`";
+  }
+  return differences;
+}
+
+/// Names separated by blanks, and one more unless it is among them.
+std::string withName(const std::string& names, const std::string& name) {
+  const bool is_there = (" " + names + " ").find(" " + name + " ") != std::string::npos;
+  return is_there ? names : names + " " + name;
 }
 
 }  // namespace
@@ -62,6 +85,7 @@ RunRecord::RunRecord(const ServerParameters& parameters, const RunPlan& plan,
     }
   }
   store_.beginSession(now(), hostName(), getpid());
+  session_ = std::to_string(store_.sessions().size());
 }
 
 RunRecord::~RunRecord() {
@@ -72,15 +96,13 @@ RunRecord::~RunRecord() {
   }
 }
 
+std::string RunRecord::publicId(const PlannedProblem& planned) const {
+  return secret_.publicId(planned.subject() + " session " + session_);
+}
+
 void RunRecord::requireSame(const std::map<std::string, std::string>& found,
                             const std::map<std::string, std::string>& expected) const {
-  std::string differences;
-  for (const auto& [key, value] : expected) {
-    const auto there = found.find(key);
-    const std::string before = there == found.end() ? "nothing" : "`" + there->second + "`";
-    if (there != found.end() && there->second == value) continue;
-    differences += "\n  " + key + ": the run has " + before + ", asked for `" + value + "`";
-  }
+  std::string differences = differencesOf(found, expected);
   for (const auto& [key, value] : found) {
     const bool is_problem_file = key.rfind("problem_file ", 0) == 0;
     if (is_problem_file && expected.count(key) == 0) differences += "\n  " + key + ": not selected";
@@ -103,13 +125,30 @@ void RunRecord::noteCloud(const std::string& name, const std::string& hash) {
 }
 
 void RunRecord::noteClient(const std::string& name, const std::string& parameters) {
-  const std::string& before = info_["client_parameters"];
-  if (info_["client"] == name && before != parameters && store_.count() > 0) {
-    throw StoreError(store_.path() + ": holds results of `" + name + "` with the parameters `" +
-                     before + "`, found `" + parameters + "`: give another ~run, or those");
+  const auto known = info_.find(kClient);
+  if (known == info_.end() || store_.count() == 0) {
+    note(kClient, name);
+    note(kClientParameters, parameters);
+    return;
   }
-  note("client", name);
-  if (!parameters.empty()) note("client_parameters", parameters);
+  const bool is_known_by_name = info_["under_test"].empty() && info_["handshake"] == "ready";
+  std::map<std::string, std::string> expected{{kClientParameters, parameters}};
+  if (is_known_by_name) expected[kClient] = name;
+  info_.emplace(kClientParameters, "");  // older runs have none for a client without any
+  const std::string differences = differencesOf(info_, expected);
+  if (!differences.empty()) {
+    throw StoreError(store_.path() +
+                     ": holds results of another client: give another folder, or the client of"
+                     " this one (its name may change in a run with ~under_test)" +
+                     differences);
+  }
+  note(kClient, withName(known->second, name));
+}
+
+std::set<std::string> RunRecord::clients() const {
+  const auto known = info_.find(kClient);
+  std::istringstream names(known == info_.end() ? "" : known->second);
+  return {std::istream_iterator<std::string>(names), {}};
 }
 
 void RunRecord::noteUsage(double cpu_time, std::uint64_t peak_memory) {
@@ -122,18 +161,10 @@ void RunRecord::noteUsage(double cpu_time, std::uint64_t peak_memory) {
 }
 
 void RunRecord::note(const std::string& key, const std::string& value) {
-  if (info_[key] == value) return;
-  info_[key] = value;
+  const auto [entry, is_new] = info_.emplace(key, value);
+  if (!is_new && entry->second == value) return;
+  entry->second = value;
   store_.updateRunInfo(key, value);
-}
-
-void RunRecord::requireClient(const std::string& name) {
-  const auto before = info_.find("client");
-  if (before != info_.end() && before->second != name) {
-    throw StoreError(store_.path() + ": holds results of `" + before->second + "`, asked for `" +
-                     name + "`: give another folder");
-  }
-  noteClient(name, "");
 }
 
 void RunRecord::writeExports(const std::string& summary_text) {

@@ -30,6 +30,11 @@ class RunRecord {
   RunRecord& operator=(const RunRecord&) = delete;
 
   const Secret& secret() const { return secret_; }
+
+  /// What a problem is called while this session lasts: a reply that was meant for an earlier one,
+  /// which a kill ended, is to an unknown problem.
+  std::string publicId(const PlannedProblem& planned) const;
+
   std::set<ProblemKey> finished() const { return store_.finished(); }
 
   /// Records the hash of a cloud that is about to be served.
@@ -37,16 +42,17 @@ class RunRecord {
   void noteCloud(const std::string& name, const std::string& hash);
 
   /// Records who answers, and how it is set up: shards with other ones cannot be merged.
+  ///
+  /// A run goes on only with the client that its results are from: the same parameters and, unless
+  /// `under_test` tells what is benchmarked or there is no handshake, the same name. Where another
+  /// name is taken, both are recorded.
+  /// @param name        of the client's node; of several, separated by blanks.
   /// @param parameters  the client's private parameters as text; empty = none.
-  /// @throws StoreError  if the run has results of the same client with other parameters.
+  /// @throws StoreError  if the run has results of another client.
   void noteClient(const std::string& name, const std::string& parameters);
 
-  /// Who answered last; empty = nobody yet.
-  std::string client() const { return info_.count("client") > 0 ? info_.at("client") : ""; }
-
-  /// noteClient(), for one that must be the same for all results of the run.
-  /// @throws StoreError  if the run has results of another one.
-  void requireClient(const std::string& name);
+  /// Names of those who answered, as far as it is recorded.
+  std::set<std::string> clients() const;
 
   /// Adds to what the node under test has used in this run, as far as its client knows:
   /// `node_cpu_time_s`, summed over problems, and `node_peak_memory_bytes`.
@@ -70,6 +76,7 @@ class RunRecord {
   ResultsStore store_;
   std::map<std::string, std::string> info_;
   Secret secret_;
+  std::string session_;  ///< its number, from 1
 };
 
 }  // namespace pcrb
