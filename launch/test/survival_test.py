@@ -139,6 +139,16 @@ class SurvivalTest(TestCase):
         self.assert_ends_well(first)
         self.assert_rows_of(first.run, self.problems)
 
+    def test_a_second_server_of_the_same_name_is_refused_and_the_first_goes_on(self):
+        first = self.server(self.data, sequences='kitchen')
+        client = self.client(first)
+        client.serve(first, limit=2)
+        self.assert_fails(self.start(first.again()), f'already runs as {first.namespace}/benchmark_server',
+                          f'pid {first.process.pid}')
+        client.serve(first)
+        self.assert_ends_well(first)
+        self.assert_rows_of(first.run, self.data.of('local', 'kitchen'))
+
     def test_a_reply_to_a_server_that_was_killed_is_to_an_unknown_problem_of_the_next(self):
         server = self.server(self.data, sequences='kitchen')
         client = self.client(server)

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "node_place.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/topics.hpp"
 
@@ -78,6 +79,16 @@ namespace {
 
 constexpr double kClockLimit = 5.0;   // s to wait for /clock
 constexpr double kMasterLimit = 0.5;  // s to wait for the master at the start
+constexpr double kNodeLimit = 2.0;    // s to wait for a node that may run under our name
+
+/// The master would shut down a node that runs under our name.
+void requireFreeName(const std::string& name) {
+  const auto place = placeOf(name);
+  const auto pid = place ? askForProcess(*place, kNodeLimit) : std::nullopt;
+  if (!pid) return;
+  throw Error("already runs as " + name + " (pid " + std::to_string(*pid) + " on " + place->host +
+              "): end that one, or start this one under another name or namespace");
+}
 
 void connect() {
   if (!ros::master::check()) {
@@ -85,6 +96,7 @@ void connect() {
                 ": start roscore or roslaunch, or set "
                 "ROS_MASTER_URI");
   }
+  requireFreeName(ros::this_node::getName());
   ros::start();
   if (!ros::Time::waitForValid(ros::WallDuration(kClockLimit))) {
     throw Error("use_sim_time is set, but nothing was published on /clock within 5 s");
