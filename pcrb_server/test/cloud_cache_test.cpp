@@ -38,5 +38,15 @@ TEST(CloudCache, TellsCloudsOfDifferentOriginsApart) {
   EXPECT_EQ(cache.find({"a", {100.0, 0.0, 0.0}}), nullptr);
 }
 
+TEST(CloudCache, ReplacesWhatWasThereUnderAKey) {
+  CloudCache cache(100'000);  // two clouds of 1000 points and no third
+  cache.insert(key("a"), cloudOf(1000));
+  const auto newer = cloudOf(1000);
+  cache.insert(key("a"), newer);
+  cache.insert(key("b"), cloudOf(1000));
+  EXPECT_EQ(cache.find(key("a")), newer);
+  EXPECT_NE(cache.find(key("b")), nullptr);
+}
+
 }  // namespace
 }  // namespace pcrb

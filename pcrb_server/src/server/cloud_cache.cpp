@@ -1,5 +1,7 @@
 #include "server/cloud_cache.hpp"
 
+#include <iterator>
+
 namespace pcrb {
 
 namespace {
@@ -20,15 +22,19 @@ std::shared_ptr<LoadedCloud> CloudCache::find(const Key& key) {
 }
 
 void CloudCache::insert(const Key& key, std::shared_ptr<LoadedCloud> cloud) {
+  const auto known = index_.find(key);
+  if (known != index_.end()) erase(known->second);
   const std::size_t bytes = bytesOf(*cloud);
   entries_.push_front({key, std::move(cloud), bytes});
   index_[key] = entries_.begin();
   bytes_ += bytes;
-  while (bytes_ > limit_bytes_ && entries_.size() > 1) {
-    bytes_ -= entries_.back().bytes;
-    index_.erase(entries_.back().key);
-    entries_.pop_back();
-  }
+  while (bytes_ > limit_bytes_ && entries_.size() > 1) erase(std::prev(entries_.end()));
+}
+
+void CloudCache::erase(std::list<Entry>::iterator entry) {
+  bytes_ -= entry->bytes;
+  index_.erase(entry->key);
+  entries_.erase(entry);
 }
 
 }  // namespace pcrb

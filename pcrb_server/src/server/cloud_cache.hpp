@@ -32,6 +32,7 @@ class CloudCache {
   using Key = std::pair<std::string, std::array<double, 3>>;
 
   std::shared_ptr<LoadedCloud> find(const Key& key);
+  /// Replaces what was there under that key.
   void insert(const Key& key, std::shared_ptr<LoadedCloud> cloud);
 
  private:
@@ -40,6 +41,8 @@ class CloudCache {
     std::shared_ptr<LoadedCloud> cloud;
     std::size_t bytes;
   };
+
+  void erase(std::list<Entry>::iterator entry);
 
   std::size_t limit_bytes_;
   std::size_t bytes_ = 0;

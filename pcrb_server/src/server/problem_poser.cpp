@@ -59,6 +59,7 @@ void ProblemPoser::checkFrames(const std::vector<PlannedProblem>& problems) {
 std::shared_ptr<LoadedCloud> ProblemPoser::makeLoaded(const std::string& path,
                                                       const DatasetCloud& read,
                                                       const Eigen::Vector3d& local_origin) {
+  if (!read.points.empty()) origins_.emplace(path, chooseLocalOrigin(read));  // a target, or later
   auto loaded = std::make_shared<LoadedCloud>();
   loaded->name = std::filesystem::path(path).lexically_relative(parameters_.root);
   loaded->hash = fileHash(path);
@@ -76,8 +77,7 @@ std::shared_ptr<LoadedCloud> ProblemPoser::loadTarget(const std::string& path) {
     if (auto loaded = cache_.find(cacheKey(path, origin->second))) return loaded;
   }
   const DatasetCloud cloud = readPcd(path, {parameters_.load_threads});
-  origins_[path] = chooseLocalOrigin(cloud);
-  return makeLoaded(path, cloud, origins_[path]);
+  return makeLoaded(path, cloud, chooseLocalOrigin(cloud));
 }
 
 std::shared_ptr<LoadedCloud> ProblemPoser::loadSource(const std::string& path,

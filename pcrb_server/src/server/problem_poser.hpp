@@ -51,7 +51,7 @@ class ProblemPoser {
   const ServerParameters& parameters_;
   const Secret& secret_;
   CloudCache cache_;
-  std::map<std::string, Eigen::Vector3d> origins_;  ///< local origins of targets, by path
+  std::map<std::string, Eigen::Vector3d> origins_;  ///< as a target, by path
 };
 
 }  // namespace pcrb
