@@ -54,6 +54,20 @@ TEST(BatchConfiguration, TakesArgumentsInAnyOrderAndRefusesOthers) {
                                       "asked for `shards 4` `method:=ndt`");
 }
 
+TEST(BatchConfiguration, RefusesOtherContentOfAFileThatAnArgumentNames) {
+  const pcrb_test::TemporaryFolder folder;
+  const std::string file = folder.file("icp.yaml");
+  BatchOptions options = optionsIn(folder.path());
+  options.arguments.push_back("parameters:=" + file);
+  std::ofstream(file) << "max_iterations: 35\n";
+  noteConfiguration(options, 3);
+  noteConfiguration(options, 3);
+  std::ofstream(file) << "max_iterations: 1\n";
+  pcrb_test::expectError<pcrb::Error>([&] { noteConfiguration(options, 3); },
+                                      "another batch: found `parameters:=" + file,
+                                      "asked for `parameters:=" + file);
+}
+
 TEST(BatchConfiguration, RefusesANoteThatIsNone) {
   const pcrb_test::TemporaryFolder folder;
   std::ofstream(folder.file("batch.txt")) << "hello\n";

@@ -10,6 +10,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/file_hash.hpp"
 #include "pcrb_core/io/number.hpp"
 
 namespace pcrb_tools {
@@ -28,9 +29,18 @@ std::vector<std::string> readLines(const std::string& path) {
   return lines;
 }
 
+/// An argument, and the hash of the file that it names, if any: shards that are complete are not
+/// started again, so that nobody else would see that it was edited.
+std::string withContent(const std::string& argument) {
+  const std::string path = argument.substr(argument.find(":=") + 2);
+  return fs::is_regular_file(path) ? argument + " " + pcrb::fileHash(path) : argument;
+}
+
 std::vector<std::string> configuration(const BatchOptions& options, int shards) {
   std::vector<std::string> lines{kShards + std::to_string(shards)};
-  for (const auto& word : launchCommand(options)) lines.push_back(word);
+  for (const auto& word : launchCommand(options)) {
+    lines.push_back(word.find(":=") == std::string::npos ? word : withContent(word));
+  }
   std::sort(lines.begin() + 2, lines.end());  // behind the number and `roslaunch`
   return lines;
 }
