@@ -106,7 +106,7 @@ bool BenchmarkServer::run() {
   std::cout << describe(parameters_) << std::endl;
   RunProgress progress(done_, plan_.problems.size());
   waitForStart();  // also if nothing remains: who starts it wants to read the summary
-  if (remaining_.empty()) {
+  if (remaining_.empty() && parameters_.handshake) {
     checkClientOfFinishedRun(record_, publications_, shutdown_, parameters_.linger);
   }
   for (std::size_t i = 0; i < remaining_.size(); ++i) {
