@@ -13,16 +13,20 @@ namespace {
 
 constexpr std::size_t kLargestExact = 50;
 
-/// P(rank sum <= statistic) for n differences whose signs are coins: the subsets of {1 … n} by sum.
-double exactTail(std::size_t n, std::size_t statistic) {
-  std::vector<double> subsets(n * (n + 1) / 2 + 1, 0.0);  // whole numbers up to 2^50: exact
+/// P(rank sum <= statistic) where signs are coins: the subsets of the ranks by their sum. Mid-ranks
+/// of ties are halves, so all is doubled.
+double exactTail(const std::vector<double>& rank, double statistic) {
+  std::vector<double> subsets(rank.size() * (rank.size() + 1) + 1, 0.0);  // up to 2^50: exact
   subsets[0] = 1.0;
-  for (std::size_t rank = 1; rank <= n; ++rank) {
-    for (std::size_t sum = subsets.size(); sum-- > rank;) subsets[sum] += subsets[sum - rank];
+  for (const double one : rank) {
+    const std::size_t doubled = static_cast<std::size_t>(2.0 * one);
+    for (std::size_t sum = subsets.size(); sum-- > doubled;) subsets[sum] += subsets[sum - doubled];
   }
   double tail = 0.0;
-  for (std::size_t sum = 0; sum <= statistic; ++sum) tail += subsets[sum];
-  return std::ldexp(tail, -static_cast<int>(n));
+  for (std::size_t sum = 0; sum <= static_cast<std::size_t>(2.0 * statistic); ++sum) {
+    tail += subsets[sum];
+  }
+  return std::ldexp(tail, -static_cast<int>(rank.size()));
 }
 
 /// Σ (t³ − t) over groups of t equal magnitudes.
@@ -43,34 +47,66 @@ double approximateP(double n, double statistic, double ties) {
   return std::erfc(std::abs(statistic - mean) / std::sqrt(2.0 * variance));
 }
 
-}  // namespace
+double average(double a, double b) { return 0.5 * a + 0.5 * b; }
 
-PairedTest wilcoxon(const std::vector<double>& differences) {
-  std::vector<double> magnitudes, nonzero;
+/// Number of averages of two values, or of one with itself, that are at most `limit`.
+std::size_t averagesUpTo(const std::vector<double>& sorted, double limit) {
+  std::size_t count = 0, end = sorted.size();
+  for (std::size_t first = 0; first < end; ++first) {
+    while (end > first && average(sorted[first], sorted[end - 1]) > limit) --end;
+    count += end - first;
+  }
+  return count;
+}
+
+/// The average at a place (from 0) in the order of all, by bisection: there are too many to list.
+double averageAt(const std::vector<double>& sorted, std::size_t place) {
+  double low = sorted.front(), high = sorted.back();
+  for (double middle = average(low, high); low < middle && middle < high;
+       middle = average(low, high)) {
+    (averagesUpTo(sorted, middle) > place ? high : low) = middle;
+  }
+  return averagesUpTo(sorted, low) > place ? low : high;
+}
+
+double pseudomedian(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t count = values.size() * (values.size() + 1) / 2;
+  return average(averageAt(values, (count - 1) / 2), averageAt(values, count / 2));
+}
+
+/// Differences that are not zero.
+std::vector<double> nonzeroOf(const std::vector<double>& differences) {
+  std::vector<double> nonzero;
   for (const double difference : differences) {
     if (!std::isfinite(difference)) {
       throw InvalidParameter("wilcoxon: found " + std::to_string(difference) +
                              ", expected finite differences");
     }
-    if (difference == 0.0) continue;
-    nonzero.push_back(difference);
-    magnitudes.push_back(std::abs(difference));
+    if (difference != 0.0) nonzero.push_back(difference);
   }
+  return nonzero;
+}
+
+}  // namespace
+
+PairedTest wilcoxon(const std::vector<double>& differences) {
+  const std::vector<double> nonzero = nonzeroOf(differences);
   PairedTest test;
   test.count = nonzero.size();
   if (nonzero.empty()) return test;
+  std::vector<double> magnitudes;
+  for (const double difference : nonzero) magnitudes.push_back(std::abs(difference));
   const std::vector<double> rank = ranks(magnitudes);
-  double positive = 0.0, negative = 0.0;
   for (std::size_t i = 0; i < nonzero.size(); ++i) {
-    (nonzero[i] > 0.0 ? positive : negative) += rank[i];
+    (nonzero[i] > 0.0 ? test.positive : test.negative) += rank[i];
   }
-  test.statistic = std::min(positive, negative);
-  const double ties = tieTerm(magnitudes);
-  const bool is_exact =
-      ties == 0.0 && nonzero.size() == differences.size() && nonzero.size() <= kLargestExact;
-  const double p = is_exact
-                       ? 2.0 * exactTail(nonzero.size(), static_cast<std::size_t>(test.statistic))
-                       : approximateP(static_cast<double>(nonzero.size()), test.statistic, ties);
+  test.pseudomedian = pseudomedian(nonzero);
+  const double statistic = std::min(test.positive, test.negative);
+  const double p = nonzero.size() <= kLargestExact
+                       ? 2.0 * exactTail(rank, statistic)
+                       : approximateP(static_cast<double>(nonzero.size()), statistic,
+                                      tieTerm(std::move(magnitudes)));
   test.p_value = std::min(1.0, p);
   return test;
 }

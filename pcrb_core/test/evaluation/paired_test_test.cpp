@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "evaluation/series.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/evaluation/correlation.hpp"
 
 namespace pcrb {
 namespace {
@@ -21,7 +23,7 @@ std::vector<double> differences(std::size_t count, double shift) {
 
 void expectTest(const PairedTest& found, std::size_t count, double statistic, double p_value) {
   EXPECT_EQ(found.count, count);
-  EXPECT_DOUBLE_EQ(found.statistic, statistic);
+  EXPECT_DOUBLE_EQ(std::min(found.positive, found.negative), statistic);
   EXPECT_NEAR(found.p_value / p_value, 1.0, 1e-9);
 }
 
@@ -32,12 +34,66 @@ TEST(Wilcoxon, AgreesWithScipyWhereItIsExactAndWhereItIsApproximate) {  // scipy
 }
 
 TEST(Wilcoxon, AgreesWithScipyWithTiesAndZeros) {  // scipy_values.py
-  auto rounded = series(60, 7919, 101, 20);
-  const auto other = series(60, 104729, 97, 20);
+  auto rounded = series(90, 7919, 101, 20);
+  const auto other = series(90, 104729, 97, 20);
   for (std::size_t i = 0; i < rounded.size(); ++i) {
     rounded[i] = std::nearbyint(rounded[i] - other[i]);
   }
-  expectTest(wilcoxon(rounded), 48, 582.0, 0.9503609498295331);
+  expectTest(wilcoxon(rounded), 73, 1342.5, 0.964518246502488);
+}
+
+/// Fraction of all choices of signs whose smaller rank sum is at most the one found, with the ranks
+/// of equal magnitudes made equal: the definition of the exact p-value.
+double pOfAllSigns(const std::vector<double>& differences) {
+  std::vector<double> magnitudes;
+  for (const double difference : differences) {
+    if (difference != 0.0) magnitudes.push_back(std::abs(difference));
+  }
+  const std::vector<double> rank = ranks(magnitudes);
+  const PairedTest found = wilcoxon(differences);
+  std::size_t extreme = 0;
+  for (std::size_t signs = 0; signs < std::size_t{1} << rank.size(); ++signs) {
+    double positive = 0.0, negative = 0.0;
+    for (std::size_t i = 0; i < rank.size(); ++i)
+      ((signs >> i & 1) ? positive : negative) += rank[i];
+    if (std::min(positive, negative) <= std::min(found.positive, found.negative)) ++extreme;
+  }
+  return std::ldexp(static_cast<double>(extreme), -static_cast<int>(rank.size()));
+}
+
+TEST(Wilcoxon, IsExactForFewDifferencesWithZerosAndTies) {
+  EXPECT_EQ(wilcoxon({0.0, 1.0, 2.0, 3.0, 4.0, 5.0}).p_value, 0.0625);  // 2 of 2^5: scipy's too
+  for (const std::vector<double>& few : {std::vector<double>{0.0, 1.0, 2.0, -3.0, 4.0, 5.0},
+                                         {1.0, 1.0, 1.0, 1.0, 1.0},
+                                         {2.0, -1.0, 2.0, 2.0, -1.0, 3.0, 0.0},
+                                         {-1.0, 1.0},
+                                         {0.0, -1.0, 1.0, 1.0, 4.0, 4.0, 9.0}}) {
+    EXPECT_EQ(wilcoxon(few).p_value, pOfAllSigns(few));
+  }
+  // scipy_values.py, permutation_test
+  const std::vector<double> few{1, 3, 2, 1, -1, 3, 2, 4, -3, 1, -2, 2};
+  expectTest(wilcoxon(few), 12, 19.0, 0.1298828125);
+}
+
+TEST(Wilcoxon, SaysTheDirectionOfItsRankSumsWhereTheMedianDifferenceSaysTheOther) {
+  std::vector<double> mixed(55, -0.01);
+  for (std::size_t i = 0; i < 45; ++i) mixed.push_back(1.0 + static_cast<double>(i) / 45.0);
+  const PairedTest test = wilcoxon(mixed);
+  EXPECT_EQ(test.negative, 55.0 * 56.0 / 2.0);
+  EXPECT_EQ(test.positive, 100.0 * 101.0 / 2.0 - test.negative);
+  EXPECT_LT(test.p_value, 0.001);
+  EXPECT_GT(test.pseudomedian, 0.0);  // the median of `mixed` is -0.01
+}
+
+TEST(Wilcoxon, HasThePseudomedianOfAllAverages) {
+  EXPECT_EQ(wilcoxon({3.0}).pseudomedian, 3.0);
+  EXPECT_EQ(wilcoxon({1.0, 4.0}).pseudomedian, 2.5);
+  EXPECT_EQ(wilcoxon({0.0, -1.0, 2.0, 5.0}).pseudomedian, 2.0);  // of -1, 0.5, 2, 2, 3.5, 5
+  EXPECT_EQ(wilcoxon({-2.0, 2.0}).pseudomedian, 0.0);
+  // scipy_values.py
+  EXPECT_NEAR(wilcoxon(differences(10, 1.0)).pseudomedian, 4.195, 1e-12);
+  EXPECT_NEAR(wilcoxon(differences(40, 1.0)).pseudomedian, 1.36, 1e-12);
+  EXPECT_NEAR(wilcoxon(differences(200, 0.5)).pseudomedian, 0.695, 1e-12);
 }
 
 TEST(Wilcoxon, HasTheHandComputedValueForThreeDifferencesOfOneSign) {
