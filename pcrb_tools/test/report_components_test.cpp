@@ -57,7 +57,9 @@ class ProblemDetailsTest : public ::testing::Test {
   void addComponents() {
     std::ostringstream out;
     Progress progress("errors", "problems", 1, out, false, std::chrono::steady_clock::now);
-    ProblemDetails(folder_.path()).addComponents(entry_, progress);
+    ProblemDetails details(folder_.path());
+    details.addComponents(entry_, progress);
+    details.addErrorPerMetre(entry_.problems[0]);
   }
 
   const Eigen::Vector3d shift_{3e6, 4e6, 100.0};

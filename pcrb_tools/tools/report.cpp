@@ -27,8 +27,10 @@ int main(int argc, char** argv) {
   app.add_option("--output,-o", options.output, "folder to write to")->required();
   app.add_option("--title", options.title)->capture_default_str();
   app.add_option("--root", options.root, "folder of the data sets [what each run says]");
-  app.add_option("--ground-truth", options.ground_truth,
-                 "CSV file of evaluate_ground_truth: the floor of each sequence");
+  app.add_option(
+      "--ground-truth", options.ground_truth,
+      "CSV file of evaluate_ground_truth: the floor of each sequence, for which its source "
+      "clouds are read");
   app.add_option("--recall", recall, "translation (m) and rotation (degrees) [four pairs]");
   app.add_option("--resamples", options.resamples, "of the bootstrap")
       ->check(CLI::Range(1, 1000000))

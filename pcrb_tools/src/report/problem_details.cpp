@@ -117,13 +117,18 @@ const ProblemDetails::Cloud& ProblemDetails::cloud(const std::string& path) {
   return clouds_.emplace(path, cloud).first->second;
 }
 
+void ProblemDetails::addErrorPerMetre(ScoredProblem& problem) {
+  const std::string& source = problemOf(problem.key).source;
+  const std::string folder = sequenceOf(problem.key).files.cloud_folder + "/";
+  problem.error_per_metre = cloud(folder + source).error_per_metre;
+}
+
 void ProblemDetails::addComponents(const Entry& entry, ScoredProblem& problem) {
+  if (!problem.reply) return;
   const pcrb::Problem& known = problemOf(problem.key);
   const std::string folder = sequenceOf(problem.key).files.cloud_folder + "/";
   const Eigen::Vector3d origin = cloud(folder + known.target).origin;
   const Cloud& source = cloud(folder + known.source);
-  problem.error_per_metre = source.error_per_metre;
-  if (!problem.reply) return;
   const Eigen::Vector3d centroid = source.centroid - origin;
   const Transform P = pcrb::inLocalFrame(pcrb::requireRigid(known.perturbation), origin);
   pcrb::Presentation presentation = pcrb::presentForRegistration(P);

@@ -29,7 +29,11 @@ class ProblemDetails {
   /// @throws pcrb::Error  if a problem file is missing or does not have a problem.
   void addPairs(Entry& entry);
 
-  /// Adds components and the error per metre to the problems of a run.
+  /// Adds the metric of a translation of the problem's source by 1 m.
+  /// @throws pcrb::Error  if the problem file or the cloud is missing.
+  void addErrorPerMetre(ScoredProblem& problem);
+
+  /// Adds components to the answered problems of a run.
   ///
   /// @throws pcrb::Error  naming the problem, if a file is missing, or the pose error that follows
   ///                      from it is not the stored one: the data sets have changed since the run.

@@ -1,15 +1,14 @@
 #include <filesystem>
-#include <map>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_tools/report/report_tool.hpp"
+#include "report/add_details.hpp"
 #include "report/charts.hpp"
 #include "report/comparison_tables.hpp"
 #include "report/detail_tables.hpp"
 #include "report/former_files.hpp"
 #include "report/load_entries.hpp"
-#include "report/problem_details.hpp"
 #include "report/published.hpp"
 #include "report/score_tables.hpp"
 
@@ -157,33 +156,6 @@ class Writer {
   Json* tables_ = nullptr;
 };
 
-/// The data set folder of an entry: the one that was asked for, else the run's, where it is there.
-std::string rootOf(const Entry& entry, const ReportOptions& options) {
-  if (!options.root.empty()) return options.root;
-  const auto found = entry.info.find("root");
-  const bool is_there = found != entry.info.end() && fs::is_directory(found->second);
-  return is_there ? found->second : std::string();
-}
-
-/// Data sets by their root folder.
-using DetailsByRoot = std::map<std::string, ProblemDetails>;
-
-DetailsByRoot addDetails(const ReportOptions& options, std::vector<Entry>& entries) {
-  DetailsByRoot details;
-  std::size_t problems = 0;
-  for (const Entry& entry : entries) problems += entry.problems.size();
-  Progress progress("errors along each axis", "problems", problems);
-  for (Entry& entry : entries) {
-    const std::string root = rootOf(entry, options);
-    if (root.empty()) continue;
-    ProblemDetails& found = details.emplace(root, root).first->second;
-    found.addPairs(entry);
-    if (options.with_components && !entry.info.empty()) found.addComponents(entry, progress);
-  }
-  if (!details.empty() && options.with_components) progress.finish();
-  return details;
-}
-
 void addOverlaps(ProblemDetails& details, Section& section) {
   for (const Selection* selection : section.at({"sequence"})) {
     const auto& [data_set, sequence] = *selection->sequences.begin();
@@ -198,7 +170,7 @@ void writeReportData(const ReportOptions& options) {
   std::vector<GroundTruth> accuracies;
   if (!options.ground_truth.empty()) accuracies = readGroundTruth(options.ground_truth);
   std::vector<Entry> entries = loadEntries(options);
-  DetailsByRoot details = addDetails(options, entries);
+  DetailsByRoot details = addDetails(options, accuracies, entries);
   const std::string root = details.empty() ? std::string() : details.begin()->first;
   std::vector<Section> sections = makeSections(entries, root);
   for (Section& section : sections) {

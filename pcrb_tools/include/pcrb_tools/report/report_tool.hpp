@@ -16,7 +16,7 @@ struct ReportOptions {
   std::string output;                ///< folder that is made or added to
   std::string title = "Point cloud registration benchmark";
   std::string root;          ///< data set folder; empty = what each run says, where it is there
-  std::string ground_truth;  ///< CSV of evaluate_ground_truth; empty = none
+  std::string ground_truth;  ///< CSV of evaluate_ground_truth, for floors; empty = none
   /// Registration recall is counted at these translations (m) and rotations (degrees).
   std::vector<std::pair<double, double>> recall_limits{
       {0.1, 1.0}, {0.3, 3.0}, {0.5, 5.0}, {2.0, 5.0}};
@@ -32,7 +32,8 @@ struct ReportOptions {
 /// draws `index.html` and `figures/*` from `report.json` alone. The same input gives the same
 /// bytes. Tables and figures of a former report in that folder are removed, other files are not.
 /// @throws pcrb::Error  if a run or file cannot be read or holds nothing, two runs have the same
-///                      name, an output cannot be written, or drawing fails.
+///                      name, no ground truth is of a sequence of theirs, an output cannot be
+///                      written, or drawing fails.
 void runReportTool(const ReportOptions& options);
 
 /// Only what is computed: everything but the page and the figures.
