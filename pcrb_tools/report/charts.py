@@ -36,7 +36,7 @@ def median_bars(scores, colors, floors):
             groups.setdefault(row['selection'], []).append(row)
     crop = crop_of([row['median'] for row in scores if row['level'] in ('sequence', 'total')])
     highs = [min(row['high'] or row['median'], 1.5 * row['median'] + 1e-9) for rows in groups.values() for row in rows]
-    scale = Linear(0, crop or 1.05 * max(highs + [1e-9]))
+    scale = Linear(0, crop or 1.05 * max(highs + list(floors.values()) + [1e-9]))
     parts, y = [], 6
     for name, rows in groups.items():
         parts.append(f'<text x="0" y="{y + 12}" class="group">{escape(name)}</text>')
@@ -56,7 +56,12 @@ def median_bars(scores, colors, floors):
 
 
 def percent(scale, value):
-    return 92 * scale(value)
+    return 85 * scale(value)  # the rest has room for the value of an interval that is cut off
+
+
+def is_cut(row, scale):
+    """Whether the interval of a bar that is whole leaves the axis."""
+    return row['high'] is not None and row['median'] <= scale.high < row['high']
 
 
 def bar_tick(scale, tick, y):
@@ -74,6 +79,8 @@ def bar(row, color, scale, y):
     if row['low'] is not None and not is_cropped:
         a, b = (coordinate(percent(scale, row[side])) for side in ('low', 'high'))
         text += f'<line x1="{a}%" x2="{b}%" y1="{y + 7}" y2="{y + 7}" class="whisker">{tip(title)}</line>'
+    if is_cut(row, scale):
+        text += f'<text x="{b}%" dx="-1" y="{y + 11}" class="beyond">▸ {error(row["high"])}</text>'
     if is_cropped:
         text += (f'<text x="{coordinate(end)}%" dx="-6" y="{y + 11}" text-anchor="end" class="inside">'
                  f'{escape(row["method"])} {error(row["median"])} ▸</text>')
@@ -166,12 +173,20 @@ class Rows(Chart):
     def middle(self, i):
         return TOP + 19 * (i + 0.5)
 
+    def mark_cut(self, low, high, y):
+        """An arrow with its value for each end of a whisker that leaves the axis."""
+        if low < self.x.low:
+            self.text(LEFT, y + 4, f'◂ {error(low)}', 'beyond', 'start')
+        if high > self.x.high:
+            self.text(WIDTH - RIGHT, y + 4, f'{error(high)} ▸', 'beyond', 'end')
+
     def draw(self, whiskers, box, median):
         for i, row in enumerate(self.rows):
             title, color = row['title'], row['color']
             y, level = self.middle(i), len(self.rows) - i - 0.5
             x = [self.at(row[q], 0)[0] for q in whiskers]
             self.line((x[0], y), (x[1], y), 'whisker', color, title)
+            self.mark_cut(row[whiskers[0]], row[whiskers[1]], y)
             if box:
                 self.box((row[box[0]], level - 0.3), (row[box[1]], level + 0.3), color, title, 'quartiles')
             self.dot(row[median], level, color, title)

@@ -8,7 +8,6 @@ PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differen
          ('dependence', 'dependence'), ('distributions', 'distributions'), ('axes', 'axes'), ('times', 'times'),
          ('overlap', 'overlap'), ('problems', 'problems'), ('published', 'published')]
 HEADINGS = {'sequence': 'Sequences', 'data set': 'Data sets', 'group': 'By characteristic', 'total': 'All problems'}
-LEVEL = 0.05  # of significance
 
 
 def trusted(text):
@@ -58,12 +57,8 @@ def cards_of(section, scores):
 
 def worse_than(comparisons, selection):
     """Which method was shown to be worse than which: pairs (worse, better)."""
-    found = set()
-    for row in comparisons:
-        if row['selection'] == selection and row['corrected p'] < LEVEL and row['difference']:
-            pair = (row['b'], row['a']) if row['difference'] < 0 else (row['a'], row['b'])
-            found.add(pair)
-    return found
+    return {(row['b'] if row['better'] == row['a'] else row['a'], row['better'])
+            for row in comparisons if row['selection'] == selection and row['better']}
 
 
 def pivot_of(section, scores, comparisons, published):
@@ -77,37 +72,42 @@ def pivot_of(section, scores, comparisons, published):
             yield {'heading': HEADINGS[level]}
         cells = [by_cell.get((selection['name'], level, name)) for name in names]
         known = [c for c in cells if c]
-        best = min(known, key=lambda c: c['median'])['method'] if len(names) > 1 else None
+        is_ranking = len(known) > 1 and selection['shared'] == selection['problems']
+        best = min(known, key=lambda c: c['median'])['method'] if is_ranking else None
         worse = worse_than(comparisons, selection['name'])
         is_tested = level == 'sequence' or selection['name'] == 'total'
         for c in known:
             is_tie = is_tested and (c['method'], best) not in worse
             c['mark'] = '' if best is None else 'best' if c['method'] == best else 'tie' if is_tie else ''
-        yield {'name': selection['name'], 'cells': cells,
-               'published': [published.get((name, selection['name'])) for name in section['published_columns']]}
+        yield {'name': selection['name'], 'cells': cells, 'shared': shared_of(selection),
+               'published': [published.get((name, selection['published'])) for name in section['published_columns']]}
+
+
+def shared_of(selection):
+    """How many of a selection's problems all methods have, where not all have the same ones."""
+    if selection['shared'] < selection['problems']:
+        return f'{selection["shared"]} of {selection["problems"]} shared'
+    return ''
 
 
 def published_of(section, rows):
-    """Published medians by method and sequence, of those sequences whose problems may be the published ones.
-
-    The total is one of all published sequences: it stands only beside theirs.
-    """
-    own = set(section['own_problems'])
-    here = {selection['name'] for selection in section['selections']
-            if selection['level'] == 'sequence' and not own & set(selection['sequences'])}
-    if here >= {row['sequence'] for row in rows} - {'total'} and not own:
-        here.add('total')
+    """Published medians by method and row, of those rows that may stand beside a selection."""
+    here = {selection['published'] for selection in section['selections']} - {''}
     return {(row['method'], row['sequence']): row['median'] for row in rows if row['sequence'] in here}
+
+
+def published_columns(published, own):
+    """Every method with a published median that is shown, those first that the report itself has."""
+    methods = list(dict.fromkeys(method for method, _ in published))
+    return [m for m in own if m in methods] + [m for m in methods if m not in own]
 
 
 def verdicts_of(comparisons):
     for row in comparisons:
         if row['selection'] == 'total':
-            text = row['verdict']
-            other = row['b'] if text.startswith(row['a'] + ' ') else row['a']
-            text = f'{text[:-len(" is better")]} is better than {other}' if text.endswith(' is better') else (
-                f'{row["a"]} and {row["b"]}: {text}')
-            yield {'text': text, 'real': row['corrected p'] < LEVEL, 'p': probability(row['corrected p']), 'pairs': row['pairs']}
+            other = row['b'] if row['better'] == row['a'] else row['a']
+            text = f'{row["verdict"]} than {other}' if row['better'] else f'{row["a"]} and {row["b"]}: {row["verdict"]}'
+            yield {'text': text, 'real': bool(row['better']), 'p': probability(row['corrected p']), 'pairs': row['pairs']}
 
 
 def drawn(panels, draw):
@@ -155,7 +155,9 @@ def view(section):
     section['has_groups'] = any(selection['level'] == 'group' for selection in section['selections'])
     section['own_sequences'] = [s['name'] for s in section['selections']
                                 if s['level'] == 'sequence' and set(s['sequences']) & set(section['own_problems'])]
-    section['published_columns'] = [m for m in colors if any(method == m for method, _ in published)]
+    section['published_columns'] = published_columns(published, colors)
+    section['has_imports'] = any(not m['info'] for m in section['methods'])
+    section['shared'] = next(shared_of(s) for s in section['selections'] if s['level'] == 'total')
     floors = {row['sequence']: row['floor'] for row in charts.rows_of(present['ground_truth'])
               if row['floor'] is not None} if 'ground_truth' in present else {}
     section['is_only_kind'] = all(m['planned'] is None or int(m['planned']) >= m['problems'] for m in section['methods'])

@@ -59,6 +59,13 @@ std::map<std::string, std::string> knownSequences(const std::string& root) {
   return data_sets;
 }
 
+bool isInPaper(const std::string& data_set, const std::string& sequence) {
+  const Sequence* known = find(sequence);
+  return known != nullptr && data_set == known->data_set;
+}
+
+std::size_t paperSequenceCount() { return kSequences.size(); }
+
 std::vector<std::string> characteristicsOf(const std::string& root, const std::string& data_set,
                                            const std::string& sequence) {
   std::vector<std::string> words;
@@ -66,10 +73,9 @@ std::vector<std::string> characteristicsOf(const std::string& root, const std::s
     const bool is_new = std::find(words.begin(), words.end(), word) == words.end();
     if (!word.empty() && is_new) words.push_back(word);
   };
-  const Sequence* known = find(sequence);
-  if (known != nullptr && data_set == known->data_set) {
-    add(known->environment);
-    add(known->structure);
+  if (isInPaper(data_set, sequence)) {
+    add(find(sequence)->environment);
+    add(find(sequence)->structure);
   }
   const pcrb::Dataset dataset = pcrb::loadDataset(root.empty() ? "/nonexistent" : root, data_set);
   add(dataset.sensor);

@@ -16,6 +16,10 @@ std::size_t publishedPlace(const std::string& sequence);
 /// @throws pcrb::InvalidFile  if the root is no readable folder.
 std::map<std::string, std::string> knownSequences(const std::string& root);
 
+/// Whether a sequence of that name in that data set is one of the paper's, and how many these are.
+bool isInPaper(const std::string& data_set, const std::string& sequence);
+std::size_t paperSequenceCount();
+
 /// What a sequence has in common with others, to group results by: environment and structure of the
 /// paper's sequences (this suite's own assignment), sensor and characteristics of its data set
 /// (`dataset.yaml` below `root`).

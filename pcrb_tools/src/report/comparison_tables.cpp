@@ -39,8 +39,7 @@ struct Comparison {
   const Selection* selection;
   std::size_t problems = 0;
   std::size_t pairs = 0;
-  double difference = 0.0;  ///< median over pairs of a's median error minus b's
-  pcrb::PairedTest test;
+  pcrb::PairedTest test;  ///< of a's median error minus b's, per pair
 };
 
 Comparison compare(const Entry& a, const Entry& b, const Selection& selection) {
@@ -49,17 +48,14 @@ Comparison compare(const Entry& a, const Entry& b, const Selection& selection) {
   for (const auto& [pair, errors] : shared.by_pair) {
     differences.push_back(pcrb::describe(errors[0]).median - pcrb::describe(errors[1]).median);
   }
-  Comparison comparison{&a, &b, &selection, shared.problems, differences.size(), 0.0, {}};
-  comparison.test = pcrb::wilcoxon(differences);
-  comparison.difference = pcrb::describe(std::move(differences)).median;
-  return comparison;
+  return {&a, &b, &selection, shared.problems, differences.size(), pcrb::wilcoxon(differences)};
 }
 
-std::string verdict(const Comparison& comparison, double corrected_p) {
-  if (corrected_p >= kSignificance) return "no difference shown";
-  const std::string& better =
-      comparison.difference < 0.0 ? comparison.a->method : comparison.b->method;
-  return comparison.difference == 0.0 ? "differ, no median difference" : better + " is better";
+/// The method that the test shows to be better, by its own rank sums; null if it shows neither.
+Json better(const Comparison& comparison, double corrected_p) {
+  if (corrected_p >= kSignificance) return nullptr;
+  const bool is_a = comparison.test.positive < comparison.test.negative;
+  return is_a ? comparison.a->method : comparison.b->method;
 }
 
 void addFamily(const Section& section, const std::vector<const Selection*>& selections,
@@ -79,9 +75,12 @@ void addFamily(const Section& section, const std::vector<const Selection*>& sele
   const std::vector<double> corrected = pcrb::holmAdjusted(p_values);
   for (std::size_t i = 0; i < family.size(); ++i) {
     const Comparison& row = family[i];
+    const Json winner = better(row, corrected[i]);
+    const std::string verdict =
+        winner.is_null() ? "no difference shown" : winner.get<std::string>() + " is better";
     table.rows.push_back({row.a->method, row.b->method, row.selection->name, row.problems,
-                          row.pairs, number(row.difference), row.test.p_value, corrected[i],
-                          verdict(row, corrected[i])});
+                          row.pairs, row.test.pseudomedian, row.test.p_value, corrected[i], winner,
+                          verdict});
   }
 }
 
@@ -118,9 +117,10 @@ Table comparisonTable(const Section& section) {
   Table table{
       "comparisons",
       "Which differences are real",
-      "Wilcoxon's signed-rank test, pairs of clouds as units; p corrected by Holm among the "
-      "totals, and among all rows of single sequences. difference: median over pairs of a's "
-      "median error minus b's.",
+      "Wilcoxon's signed-rank test on the problems that both methods have, pairs of clouds as "
+      "units: a's median error of each minus b's; p corrected by Holm among the totals, and among "
+      "all rows of single sequences. difference: Hodges and Lehmann's estimate, which belongs to "
+      "this test: the median of the averages of all two pairs' differences.",
       {{"a"},
        {"b"},
        {"selection"},
@@ -129,6 +129,7 @@ Table comparisonTable(const Section& section) {
        {"difference", Format::kError},
        {"p", Format::kProbability},
        {"corrected p", Format::kProbability},
+       {"better"},
        {"verdict"}},
       {}};
   addFamily(section, {section.at({"total"}).front()}, table);

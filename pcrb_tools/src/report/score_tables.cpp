@@ -7,6 +7,7 @@
 
 #include "pcrb_core/evaluation/bootstrap.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
+#include "report/own_problems.hpp"
 #include "report/published.hpp"
 
 namespace pcrb_tools {
@@ -42,6 +43,22 @@ std::vector<Json> scoreRow(const Entry& entry, const Selection& selection,
   row.push_back(number(interval.high));
   row.emplace_back(units.empty() ? 0 : *std::max_element(units.begin(), units.end()) + 1);
   return row;
+}
+
+/// Where medians side by side are not of the same problems.
+std::string noteOnSharedProblems(const Section& section) {
+  std::string places;
+  for (const Selection* selection : section.at({"sequence", "total"})) {
+    const ProblemCounts counts = countProblems(section, *selection);
+    if (counts.shared == counts.all) continue;
+    places += (places.empty() ? "" : ", ") + std::to_string(counts.shared) + " of " +
+              std::to_string(counts.all) + " in " + selection->name;
+  }
+  if (places.empty()) return {};
+  return " Not all methods have the same problems; where they have not, scores do not rank them: "
+         "all "
+         "share " +
+         places + ".";
 }
 
 bool hasBothKinds(const std::vector<Section>& sections, const std::string& method) {
@@ -82,6 +99,7 @@ Table scoreTable(const Section& section, const ReportOptions& options) {
     table.columns.push_back({name, Format::kError});
   }
   table.columns.push_back({"pairs", Format::kCount});
+  table.note += noteOnSharedProblems(section);
   for (const Entry* entry : section.entries) {
     for (const Selection& selection : section.selections) {
       if (!select(*entry, selection).empty()) {
@@ -132,8 +150,8 @@ Table publishedTable(const Section& section) {
   }
   if (!section.own_problems.empty()) {
     table.note +=
-        " The problems of these sequences were drawn by sample_problems and are other "
-        "ones than the published ones, the data perhaps too, whatever the name: " +
+        " The problems of these sequences (drawn by sample_problems, or with ids of their own) "
+        "are other ones than the published ones, the data perhaps too, whatever the name: " +
         namesOfOwnProblems(section) + ".";
   }
   for (const PublishedRow& published : publishedRows()) {

@@ -7,11 +7,15 @@ namespace pcrb_tools {
 namespace {
 
 constexpr std::uint64_t kProblemsPerPair = 31;  // 30 local ones and a global one
+constexpr std::size_t kPublishedDigits = 4;     // of 31 · 100 - 1 and of 31 · 102 - 1
 
-/// What every official id of a sequence begins with.
-std::string idPrefix(const std::string& sequence) {
-  const std::string first = pcrb::problemId(sequence, 0, 1);  // … and the index of two digits
-  return first.substr(0, first.size() - 2);
+/// The digits of an official id that follow those of its sequence; empty if it is none.
+std::string indexOf(const pcrb::ProblemKey& key) {
+  const std::string first = pcrb::problemId(key.sequence, 0, 1);  // with an index of two digits
+  const std::string prefix = first.substr(0, first.size() - 2);
+  return key.problem_id.compare(0, prefix.size(), prefix) == 0
+             ? key.problem_id.substr(prefix.size())
+             : std::string();
 }
 
 }  // namespace
@@ -19,13 +23,14 @@ std::string idPrefix(const std::string& sequence) {
 std::string pairOf(const ScoredProblem& problem) {
   const std::string sequence = problem.key.data_set + "/" + problem.key.sequence + " ";
   if (!problem.source.empty()) return sequence + problem.source + " " + problem.target;
-  const std::string& id = problem.key.problem_id;
-  const std::string prefix = idPrefix(problem.key.sequence);
-  if (id.size() > prefix.size() && id.compare(0, prefix.size(), prefix) == 0) {
-    const auto index = pcrb::parseUnsigned(id.substr(prefix.size()));
-    if (index) return sequence + "pair " + std::to_string(*index / kProblemsPerPair);
-  }
-  return sequence + "problem " + id;
+  const auto index = pcrb::parseUnsigned(indexOf(problem.key));
+  if (index) return sequence + "pair " + std::to_string(*index / kProblemsPerPair);
+  return sequence + "problem " + problem.key.problem_id;
+}
+
+bool hasPublishedId(const pcrb::ProblemKey& key) {
+  const std::string index = indexOf(key);
+  return index.size() == kPublishedDigits && pcrb::parseUnsigned(index);
 }
 
 }  // namespace pcrb_tools

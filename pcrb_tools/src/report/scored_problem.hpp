@@ -47,4 +47,8 @@ struct Entry {
 /// (31 problems belong to a pair), else every problem is a pair of its own.
 std::string pairOf(const ScoredProblem& problem);
 
+/// Whether an id is one that the published problem files can have: their lists have so many pairs
+/// that the index has four digits.
+bool hasPublishedId(const pcrb::ProblemKey& key);
+
 }  // namespace pcrb_tools

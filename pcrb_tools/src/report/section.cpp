@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "report/catalog.hpp"
+#include "report/own_problems.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -64,21 +65,6 @@ void addTotals(const std::vector<SequenceKey>& sequences, std::vector<Selection>
   selections.push_back(total);
 }
 
-/// Whether the run table says that a tool drew the problems.
-bool isDrawn(const Entry& entry, const SequenceKey& key) {
-  return entry.info.count("drawn_by " + key.first + "/" + key.second + "_" +
-                          pcrb::toString(entry.kind) + ".txt") > 0;
-}
-
-void addOwnProblems(const std::vector<SequenceKey>& sequences, Section& section) {
-  for (const SequenceKey& sequence : sequences) {
-    const bool is_drawn =
-        std::any_of(section.entries.begin(), section.entries.end(),
-                    [&](const Entry* entry) { return isDrawn(*entry, sequence); });
-    if (is_drawn) section.own_problems.insert(sequence);
-  }
-}
-
 void addSelections(const std::string& root, Section& section) {
   using Words = std::vector<std::string>;
   const auto sequences = sequencesOf(section);
@@ -121,7 +107,7 @@ std::vector<Section> makeSections(const std::vector<Entry>& entries, const std::
     }
     if (section.entries.empty()) continue;
     addSelections(root, section);
-    addOwnProblems(sequencesOf(section), section);
+    section.own_problems = findOwnProblems(section.entries, root);
     sections.push_back(std::move(section));
   }
   return sections;
@@ -152,13 +138,18 @@ std::vector<std::size_t> unitsOf(const Problems& problems) {
   return units;
 }
 
-std::string namesOfOwnProblems(const Section& section) {
-  std::string names;
-  for (const Selection* selection : section.at({"sequence"})) {
-    if (section.own_problems.count(*selection->sequences.begin()) == 0) continue;
-    names += (names.empty() ? "" : ", ") + selection->name;
+ProblemCounts countProblems(const Section& section, const Selection& selection) {
+  std::map<pcrb::ProblemKey, std::size_t> holders;
+  std::size_t methods = 0;
+  for (const Entry* entry : section.entries) {
+    const Problems problems = select(*entry, selection);
+    methods += problems.empty() ? 0 : 1;
+    for (const ScoredProblem* problem : problems) ++holders[problem->key];
   }
-  return names;
+  ProblemCounts counts;
+  counts.all = holders.size();
+  for (const auto& [key, count] : holders) counts.shared += count == methods ? 1 : 0;
+  return counts;
 }
 
 std::string sequenceName(const Section& section, const pcrb::ProblemKey& key) {

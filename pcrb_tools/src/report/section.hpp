@@ -25,8 +25,8 @@ struct Section {
   std::vector<Selection> selections;  ///< sequences, data sets, groups, total
   /// Of all pairs of clouds in the problem file of a sequence (data set, sequence), where known.
   std::map<std::pair<std::string, std::string>, std::vector<double>> overlaps;
-  /// Sequences (data set, sequence) whose problems a tool drew in some entry: whatever their name,
-  /// they are not the published ones.
+  /// Sequences (data set, sequence) whose problems are not the published ones in some entry,
+  /// whatever their name: a tool drew them, or ids are others.
   std::set<std::pair<std::string, std::string>> own_problems;
 
   /// Selections of some levels.
@@ -35,7 +35,8 @@ struct Section {
 
 /// One section per kind that has entries. The entries must outlive it.
 ///
-/// @param root  folder whose `dataset.yaml` files say characteristics; may be empty.
+/// @param root  folder whose `dataset.yaml` files say characteristics, and whose problem files say
+///              which tool drew them; may be empty.
 std::vector<Section> makeSections(const std::vector<Entry>& entries, const std::string& root);
 
 using Problems = std::vector<const ScoredProblem*>;
@@ -47,8 +48,13 @@ Problems select(const Entry& entry, const Selection& selection);
 std::vector<double> errorsOf(const Problems& problems);
 std::vector<std::size_t> unitsOf(const Problems& problems);
 
-/// Names of the sequences in own_problems, separated by commas.
-std::string namesOfOwnProblems(const Section& section);
+/// Problems that some method has in a selection, and those that all methods have that have any
+/// there: medians of different problems are no ranking.
+struct ProblemCounts {
+  std::size_t all = 0;
+  std::size_t shared = 0;
+};
+ProblemCounts countProblems(const Section& section, const Selection& selection);
 
 /// The name of a sequence in a section: with its data set where two data sets have one of that
 /// name.

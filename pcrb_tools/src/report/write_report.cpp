@@ -9,6 +9,7 @@
 #include "report/detail_tables.hpp"
 #include "report/former_files.hpp"
 #include "report/load_entries.hpp"
+#include "report/own_problems.hpp"
 #include "report/published.hpp"
 #include "report/score_tables.hpp"
 
@@ -49,6 +50,10 @@ Json describeSelections(const Section& section) {
     Json json;
     json["name"] = selection.name;
     json["level"] = selection.level;
+    const ProblemCounts counts = countProblems(section, selection);
+    json["problems"] = counts.all;
+    json["shared"] = counts.shared;
+    json["published"] = publishedRowOf(section, selection);
     json["sequences"] = Json::array();
     for (const auto& [data_set, sequence] : selection.sequences) {
       json["sequences"].push_back(data_set + "/" + sequence);

@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "pcrb_core/io/file_hash.hpp"
+#include "pcrb_core/io/number.hpp"
+#include "support/report_fixture.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+/// Text of a result file of `plain` with ids like the published ones, each of a pair of its own.
+template <typename ErrorOf>
+std::string plainResults(std::size_t count, const ErrorOf& errorOf) {
+  std::string text = "id,error,source,target\n";
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string number = std::to_string(1000 + i);
+    text += "421552847" + number + "," + pcrb::formatShortest(errorOf(i)) + ",a" + number + ",b\n";
+  }
+  return text;
+}
+
+/// What compares methods with each other and with what is published.
+class ReportComparisonTest : public ReportTest {
+ protected:
+  template <typename ErrorOf>
+  void addImport(const std::string& method, std::size_t count, const ErrorOf& errorOf) {
+    options_.imports.push_back(addFile(method + "_plain_local.csv", plainResults(count, errorOf)));
+  }
+
+  std::string page() {
+    runReportTool(options_);
+    return read(options_.output + "/index.html");
+  }
+
+  static bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+};
+
+TEST_F(ReportComparisonTest, TakesTheDirectionFromTheRankSumsThatThePValueIsOf) {
+  const auto base = [](std::size_t i) { return 2.0 + 0.001 * static_cast<double>(i); };
+  addImport("precise", 100, [&](std::size_t i) {  // a little better 55 times, much worse 45 times
+    return i < 55 ? base(i) - 0.01 : base(i) + 1.0 + static_cast<double>(i - 55) / 45.0;
+  });
+  addImport("robust", 100, base);
+  const std::string text = page();
+  const Rows rows = readCsv(options_.output + "/tables/local_comparisons.csv");
+  EXPECT_EQ(rows[0].at("better"), "robust");
+  EXPECT_EQ(rows[0].at("verdict"), "robust is better");
+  EXPECT_GT(*pcrb::parseDouble(rows[0].at("difference")), 0.0);  // of precise minus robust
+  EXPECT_TRUE(has(text, "robust is better than precise"));
+}
+
+TEST_F(ReportComparisonTest, MarksTheBestOnlyWhereAllMethodsHaveTheSameProblems) {
+  addImport("full", 100, [](std::size_t i) { return i < 20 ? 0.1 : 5.0; });
+  addImport("part", 20, [](std::size_t) { return 1.0; });
+  std::string text = page();
+  EXPECT_FALSE(has(text, "class=\"best\""));
+  EXPECT_TRUE(has(text, "<td>plain<small>20 of 100 shared</small></td>"));
+  EXPECT_TRUE(has(text, "The methods have different problems (20 of 100 shared)"));
+  EXPECT_TRUE(has(text, "full is better than part"));
+  EXPECT_TRUE(has(read(options_.output + "/report.md"), "all share 20 of 100 in plain"));
+
+  options_.imports.clear();
+  addImport("full", 20, [](std::size_t) { return 0.1; });
+  addImport("part", 20, [](std::size_t) { return 1.0; });
+  text = page();
+  EXPECT_TRUE(has(text, "class=\"best\""));
+  EXPECT_FALSE(has(text, "shared</small>"));
+  EXPECT_FALSE(has(text, "different problems"));
+}
+
+TEST_F(ReportComparisonTest, PutsAllPublishedMethodsOfTheKindBesideAMethodOfTheUsersOwn) {
+  addImport("mine", 20, [](std::size_t) { return 0.1; });
+  addImport("ppcr", 20, [](std::size_t) { return 0.2; });
+  const std::string text = page();
+  EXPECT_TRUE(has(text,
+                  "<th>mine</th><th>ppcr</th><th>ppcr, published</th><th>icp, published</th>"
+                  "<th>gicp, published</th><th>ndt, published</th></tr>"));
+  EXPECT_TRUE(has(text, "<td class=\"published\">0.17</td><td class=\"published\">0.40</td>"));
+  EXPECT_TRUE(has(text, "ndt 0.87 against misalignment"));  // Table 8
+  EXPECT_FALSE(has(text, "teaser, published"));
+}
+
+TEST_F(ReportComparisonTest, PutsNothingPublishedBesideOtherProblemsOrAnotherDataSet) {
+  options_.imports = {addFile("mine_plain_local.csv", "id,error\n1,0.1\n2,0.2\n")};
+  std::string text = page();
+  EXPECT_FALSE(has(text, ", published</th>"));
+  EXPECT_TRUE(has(text, "No published figures stand beside plain"));
+  options_.imports = {
+      addFile("mine_plain_local.csv", "id,error,data_set\n4215528471000,0.1,mine\n")};
+  text = page();
+  EXPECT_FALSE(has(text, ", published</th>"));
+}
+
+TEST_F(ReportComparisonTest,
+       PutsNothingPublishedBesideProblemsWhoseSideFileNamesTheToolThatDrewThem) {
+  namespace fs = std::filesystem;
+  fs::create_directories(folder_.file("root/eth/plain"));
+  const std::string file = "root/eth/plain_local.txt";
+  addFile(file,
+          "id source target overlap t1 t2 t3 t4 t5 t6 t7 t8 t9 t10 t11 t12\n"
+          "4215528471000 a b 0.5 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  options_.root = folder_.file("root");
+  options_.imports = {addFile("mine_plain_local.csv", "id,error\n4215528471000,0.1\n")};
+  EXPECT_TRUE(has(page(), "<th>icp, published</th>"));
+  addFile(file + ".yaml",
+          "tool: sample_problems\noutput_blake2b: " + pcrb::fileHash(folder_.file(file)) + "\n");
+  EXPECT_FALSE(has(page(), ", published</th>"));
+  options_.imports.clear();
+  options_.runs = {addRun("older", 0.1)};  // than what a run table says of it
+  options_.with_components = false;
+  EXPECT_FALSE(has(page(), ", published</th>"));
+}
+
+TEST_F(ReportComparisonTest, MarksIntervalsThatLeaveTheAxisOfTheBars) {
+  addImport("torn", 11, [](std::size_t i) { return i < 6 ? 1.0 : 9.0; });
+  EXPECT_TRUE(has(page(), "class=\"beyond\">▸ 9.000</text>"));
+  options_.imports.clear();
+  addImport("whole", 11, [](std::size_t i) { return 1.0 + 0.01 * static_cast<double>(i); });
+  EXPECT_FALSE(has(page(), "class=\"beyond\""));
+}
+
+}  // namespace
+}  // namespace pcrb_tools
