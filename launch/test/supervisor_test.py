@@ -72,6 +72,22 @@ class SupervisorTest(BridgeTestCase):
         self.assertEqual(len(self.processes(launch)), 3)
         self.assertEqual([row['outcome'] for row in rows(self.path('run'))], ['replied'] * 3)
 
+    def assert_every_problem_fails(self, **arguments):
+        """Whatever the node dies of."""
+        file = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'crashing_localizer.launch')
+        robot = {f'{topic}_topic': f'/{topic}' for topic in ('map', 'scan')}
+        launch = self.launch(node_launch=file, **robot, **arguments)
+        launch.wait()
+        self.assertEqual([(row['outcome'], row['reason']) for row in rows(self.path('run'))],
+                         [('failed', 'the node under test left while it had the problem')] * arguments['subset'],
+                         launch.output())
+
+    def test_a_node_that_dies_of_every_scan_costs_its_problems_and_not_the_run(self):
+        self.assert_every_problem_fails(node_args='at=scan', subset=5)
+
+    def test_a_node_that_dies_of_every_initial_pose_does_so_too_beside_another_that_stays(self):
+        self.assert_every_problem_fails(node_args='at=initialpose beside=true', subset=2)
+
     def test_a_launch_file_that_fails_at_once_ends_the_whole_launch(self):
         """roslaunch lets arguments pass that a file does not have, so it takes a file that is not there."""
         launch = self.launch(node_launch='localization_standins no_such.launch', node_args='')

@@ -14,7 +14,8 @@ const pcrb::NodeHelp kHelp{"node_supervisor",
 
 Service: ~restart (std_srvs/Trigger) ends the child and all that it started (SIGINT, 5 s later SIGTERM,
 2 s later SIGKILL), then starts it. A child that ends by itself is started anew; one that does so within
-10 s three times in a row is an error. It runs outside the supervisor's namespace.)"};
+10 s three times in a row, without a result of the server between, is an error. It runs outside the
+supervisor's namespace.)"};
 
 }  // namespace
 

@@ -171,6 +171,7 @@ bool LocalizationBridge::bringNode() {
     refuseRivals();
     if (parameters_.restart_after > 0) keeper_.restart();
   }
+  keeper_.beginWatch();
   return isCurrent();
 }
 

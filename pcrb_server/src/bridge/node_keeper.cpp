@@ -49,10 +49,9 @@ bool NodeKeeper::isThere() const {
   return !inputs_.nodes().empty() && inputs_.departures() >= left_before_;
 }
 
-void NodeKeeper::beginPlay() {
-  left_at_start_ = inputs_.departures();
-  processes_.usage(inputs_.allNodes());
-}
+void NodeKeeper::beginWatch() { left_at_start_ = inputs_.departures(); }
+
+void NodeKeeper::beginPlay() { processes_.usage(inputs_.allNodes()); }
 
 bool NodeKeeper::hasLeft() const { return inputs_.departures() != left_at_start_; }
 
@@ -64,6 +63,10 @@ bool NodeKeeper::isHanging() const {
 }
 
 void NodeKeeper::endProblem(bool is_answered) {
+  if (hasLeft()) {
+    std::cout << "the node under test has left: it is started anew" << std::endl;
+    needs_restart_ = true;  // its launch file may go on without it
+  }
   unanswered_ = is_answered ? 0 : unanswered_ + 1;
   if (is_answered || hasLeft()) return;
   const bool is_silent = parameters_.restart_after > 0 && unanswered_ >= parameters_.restart_after;

@@ -34,7 +34,10 @@ class NodeKeeper {
   /// Whether the node that was asked for is there.
   bool isThere() const;
 
-  /// Whether the node has left since beginPlay().
+  /// Call when the node is there: from now on it has the problem.
+  void beginWatch();
+
+  /// Whether the node has left since beginWatch().
   bool hasLeft() const;
 
   /// Call before the first scan of each problem.
@@ -59,7 +62,7 @@ class NodeKeeper {
   NodeProcesses processes_;
   bool needs_restart_ = false;
   int left_before_ = 0;    ///< departures at which the node counts as new
-  int left_at_start_ = 0;  ///< departures when the problem began
+  int left_at_start_ = 0;  ///< departures when the node had the problem
   int unanswered_ = 0;     ///< problems in a row
 };
 

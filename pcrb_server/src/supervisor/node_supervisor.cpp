@@ -1,10 +1,14 @@
 #include "supervisor/node_supervisor.hpp"
 
+#include <pcrb_msgs/Result.h>
+
 #include <iostream>
 #include <thread>
+#include <utility>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/node_parameters.hpp"
+#include "pcrb_server/topics.hpp"
 
 namespace pcrb {
 
@@ -49,6 +53,11 @@ SupervisorParameters readSupervisorParameters() {
 NodeSupervisor::NodeSupervisor(const SupervisorParameters& parameters, ShutdownNotice& shutdown)
     : command_(parameters.command), shutdown_(shutdown), is_wanted_(parameters.autostart) {
   service_ = offerTrigger(node_, "restart", [this] { return restart(); });
+  results_ = ros::NodeHandle().subscribe<pcrb_msgs::Result>(
+      topics::kResult, 1, [this](const pcrb_msgs::ResultConstPtr&) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        has_result_ = true;
+      });
   shutdown_.onShutdown([this] {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_over_ = true;
@@ -90,11 +99,17 @@ void NodeSupervisor::answerRequest() {
   changed_.notify_all();
 }
 
+bool NodeSupervisor::takeResult() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(has_result_, false);
+}
+
 void NodeSupervisor::keepAlive() {
   if (!is_wanted_ || command_.isRunning()) return;
   const bool is_first = started_ == std::chrono::steady_clock::time_point();
   const bool is_early = std::chrono::steady_clock::now() - started_ < kEarly;
-  early_deaths_ = is_early && !is_first ? early_deaths_ + 1 : 0;
+  const bool was_there = takeResult();
+  early_deaths_ = is_early && !is_first && !was_there ? early_deaths_ + 1 : 0;
   if (early_deaths_ >= kMaxEarlyDeaths) {
     throw Error("the node under test ended " + std::to_string(early_deaths_) +
                 " times as soon as it was started: see what it printed");

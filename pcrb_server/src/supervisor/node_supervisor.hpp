@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 #include <ros/spinner.h>
+#include <ros/subscriber.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -31,7 +32,8 @@ class NodeSupervisor {
   ~NodeSupervisor();
 
   /// Until the shutdown; ends the child.
-  /// @throws Error  if the child keeps dying as soon as it is started.
+  /// @throws Error  if the child keeps dying as soon as it is started, and no problem ends
+  /// meanwhile.
   void run();
 
  private:
@@ -39,20 +41,23 @@ class NodeSupervisor {
   void answerRequest();
   void keepAlive();
   void start();
+  bool takeResult();
 
   SupervisedCommand command_;
   ShutdownNotice& shutdown_;
   bool is_wanted_;        ///< whether the child should run
-  int early_deaths_ = 0;  ///< in a row
+  int early_deaths_ = 0;  ///< in a row, without a result between them
   std::chrono::steady_clock::time_point started_;
 
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_requested_ = false;
   bool is_over_ = false;
+  bool has_result_ = false;  ///< whether a problem has ended since the last death
 
   ros::NodeHandle node_{"~"};
   ros::ServiceServer service_;
+  ros::Subscriber results_;
   ros::AsyncSpinner spinner_{1};
 };
 
