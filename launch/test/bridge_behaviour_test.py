@@ -4,6 +4,7 @@ import os
 import sys
 
 import numpy as np
+import rosgraph
 import rospy
 import rostest
 import tf2_ros
@@ -15,7 +16,7 @@ from std_srvs.srv import Empty, Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import wait_until
+from pcrb_testing import Child, executable, wait_until
 from pcrb_testing_bridge import BridgeTestCase, SlowRobot
 
 MOTION = maths.transform(maths.axis_angle([0.1, -0.3, 1], 0.05), [0.2, -0.1, 0.05])
@@ -205,6 +206,50 @@ class BridgeBehaviourTest(BridgeTestCase):
         row, = self.rows_of_bridge(server, self.bridge(server, settle='first', answer_limit=0.2)).values()
         self.assertEqual(row['outcome'], 'timed_out')
         self.assertIn('nothing but the initial pose', row['reason'])
+
+    def spectator(self, server):
+        """Somebody who takes the scans and nothing else."""
+        scan = f'{server.namespace}/robot/scan'
+        relay = Child([executable('topic_tools', 'relay'), scan, f'{scan}_elsewhere', '__name:=spectator'],
+                      server.namespace)
+        self.start(relay)
+        wait_until(lambda: [scan, [f'{server.namespace}/spectator']] in rosgraph.Master('/test').getSystemState()[1],
+                   'the spectator has subscribed')
+        return relay
+
+    def rows_with_a_spectator_who_leaves(self, server, **parameters):
+        """It does so at the first scan, and the robot answers some scans later."""
+        spectator = self.spectator(server)
+        publisher = self.publisher(f'{server.namespace}/robot/pose', PoseStamped)
+
+        def publish(stamp, T):
+            if not spectator.ended():
+                spectator.kill()
+            if len(robot.scans) > 5:
+                publisher.publish(make_answer(PoseStamped, stamp, T))
+
+        robot = self.robot(server, publish, MOTION)
+        robot.initial = PoseWithCovarianceStamped()
+        robot.initial.pose.pose.orientation.w = 1.0
+        rows = self.scores(server, answer_limit=0.2, **parameters)
+        self.assertTrue(spectator.ended())
+        robot.close()
+        return rows
+
+    def test_who_takes_scans_but_no_initial_pose_beside_one_that_takes_both_may_leave(self):
+        self.rows_with_a_spectator_who_leaves(self.localization(sequences='kitchen', subset=1))
+
+    def test_who_is_called_an_observer_may_leave_a_node_that_takes_no_initial_pose(self):
+        server = self.localization(sequences='kitchen', subset=1)
+        self.rows_with_a_spectator_who_leaves(server, send_initialpose=False, observers='rviz spec',
+                                              initialpose_topic=f'{server.namespace}/unused')
+
+    def test_a_node_may_take_longer_than_its_limit_where_nobody_can_restart_it(self):
+        server = self.localization(sequences='kitchen', subset=1)
+        bridge = self.bridge(server, settle='first', start_limit=0.5)
+        bridge.wait_for_output(r'there was none within 0.5 s \(~start_limit\)')
+        self.answering(server)
+        self.assert_motion_is_scored(self.rows_of_bridge(server, bridge))
 
     def test_it_refuses_rivals_and_names_them(self):
         server = self.localization()

@@ -83,10 +83,15 @@ class SupervisorTest(BridgeTestCase):
                          launch.output())
 
     def test_a_node_that_dies_of_every_scan_costs_its_problems_and_not_the_run(self):
-        self.assert_every_problem_fails(node_args='at=scan', subset=5)
+        self.assert_every_problem_fails(node_args='at=scan', subset=4)
 
     def test_a_node_that_dies_of_every_initial_pose_does_so_too_beside_another_that_stays(self):
         self.assert_every_problem_fails(node_args='at=initialpose beside=true', subset=2)
+
+    def test_a_node_that_does_not_come_ends_the_launch_when_its_limit_is_up(self):
+        launch = self.launch(node_launch='', node_args='', connect_limit=1)
+        launch.wait()
+        self.assertRegex(launch.output(), r'within 1 s \(~connect_limit; .*/pcrb/localization_bridge')
 
     def test_a_launch_file_that_fails_at_once_ends_the_whole_launch(self):
         """roslaunch lets arguments pass that a file does not have, so it takes a file that is not there."""

@@ -45,6 +45,9 @@ const pcrb::NodeHelp kHelp{"localization_bridge",
   restart (never)        never, target or problem: before what the node is restarted
   restart_after (3)      problems in a row without an answer, 0 = never
   restart_service (node_supervisor/restart)
+  start_limit (60)       s for the node to subscribe to the scan after a start; then it is restarted
+  observers (rviz rqt rosbag rostopic rosout foxglove_bridge rosbridge_websocket)
+                         what names of nodes begin with that may come and go: not under test
 
 The benchmark's side: problem, target, source, summary; ready, submit_pose; in the namespace /pcrb
 unless another is given. Ends when the server says that the run is over.)"};

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "pcrb_server/node_parameters.hpp"
+#include "subscriber_names.hpp"
 
 namespace pcrb {
 
@@ -114,6 +115,8 @@ void readRestart(NodeParameters& reader, BridgeParameters& parameters) {
                                              : Restart::kProblem;
   parameters.restart_service = reader.string("restart_service", "node_supervisor/restart");
   parameters.restart_after = reader.integer("restart_after", 3, 0, 1000000);
+  parameters.start_limit = reader.number("start_limit", 60.0, 0.1, kLongTime);
+  parameters.observers = reader.words("observers", kObservers);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bridge/scan_sequence.hpp"
 #include "bridge/settling.hpp"
@@ -48,7 +49,9 @@ struct BridgeParameters {
 
   enum class Restart { kNever, kTarget, kProblem } restart = Restart::kNever;
   std::string restart_service;
-  int restart_after = 3;  ///< problems in a row without an answer, 0 = never
+  int restart_after = 3;               ///< problems in a row without an answer, 0 = never
+  double start_limit = 60.0;           ///< s for a node to be there after a start
+  std::vector<std::string> observers;  ///< what names of nodes begin with that are not under test
 };
 
 /// Reads and checks all private parameters.

@@ -18,9 +18,8 @@ namespace {
 
 using Request = pcrb_msgs::SubmitPose::Request;
 
-constexpr double kPollPeriod = 0.02;     // s
-constexpr double kReminderPeriod = 5.0;  // s
-constexpr double kReturnLimit = 20.0;    // s for a node to come back before a new one is asked for
+constexpr double kPollPeriod = 0.02;       // s
+constexpr double kReminderPeriod = 5.0;    // s
 constexpr double kInitialPoseLimit = 5.0;  // s for a new node to subscribe to the initial pose
 constexpr double kForever = 1e9;           // s
 
@@ -164,12 +163,17 @@ void LocalizationBridge::sendMap() {
 bool LocalizationBridge::bringNode() {
   const auto is_there = [this] { return keeper_.isThere() || !isCurrent(); };
   if (keeper_.needsRestart()) keeper_.restart();
-  while (!waitFor(is_there, kReturnLimit)) {
+  double start = steadyNow();
+  while (!waitFor(is_there, std::min(kReminderPeriod, parameters_.start_limit))) {
     if (shutdown_.requested()) return false;
     std::cout << "waiting for a node that subscribes to "
               << node_.resolveName(parameters_.scan_topic) << std::endl;
     refuseRivals();
-    if (parameters_.restart_after > 0) keeper_.restart();
+    if (steadyNow() - start < parameters_.start_limit || parameters_.restart_after == 0) continue;
+    std::cout << "there was none within " << parameters_.start_limit << " s (~start_limit)"
+              << std::endl;
+    keeper_.restart();
+    start = steadyNow();
   }
   keeper_.beginWatch();
   return isCurrent();

@@ -4,7 +4,7 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 
-#include <algorithm>
+#include <iterator>
 
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_server/message_conversion.hpp"
@@ -28,6 +28,15 @@ void writeMapFile(const std::string& path, const PointCloud& map) {
   cloud.points.reserve(map.size());
   for (const auto& point : map.points) cloud.points.push_back(point.cast<double>());
   writePcd(path, cloud);
+}
+
+/// The entries whose keys are among some names.
+template <typename Names>
+std::map<std::string, int> withNames(std::map<std::string, int> entries, const Names& names) {
+  for (auto entry = entries.begin(); entry != entries.end();) {
+    entry = names.count(entry->first) > 0 ? std::next(entry) : entries.erase(entry);
+  }
+  return entries;
 }
 
 template <typename Message>
@@ -65,7 +74,10 @@ sensor_msgs::Imu gravityOnly(const BridgeParameters& parameters) {
 }  // namespace
 
 NodeInputs::NodeInputs(ros::NodeHandle& node, const BridgeParameters& parameters)
-    : parameters_(parameters) {
+    : parameters_(parameters),
+      map_listeners_(parameters.observers),
+      scan_listeners_(parameters.observers),
+      initial_pose_listeners_(parameters.observers) {
   map_ = advertise<sensor_msgs::PointCloud2>(node, parameters.map_topic, map_listeners_, true);
   scan_ = advertise<sensor_msgs::PointCloud2>(node, parameters.scan_topic, scan_listeners_, false);
   initial_pose_ = advertise<geometry_msgs::PoseWithCovarianceStamped>(
@@ -78,6 +90,17 @@ NodeInputs::NodeInputs(ros::NodeHandle& node, const BridgeParameters& parameters
   if (!parameters.odometry_topic.empty()) {
     odometry_.publisher = node.advertise<nav_msgs::Odometry>(parameters.odometry_topic, kQueue);
   }
+}
+
+std::map<std::string, int> NodeInputs::departures() const {
+  const auto takers = scan_listeners_.departures();
+  const auto others = initial_pose_listeners_.departures();
+  auto nodes = withNames(takers, others);
+  return nodes.empty() ? takers : nodes;
+}
+
+std::map<std::string, int> NodeInputs::nodes() const {
+  return withNames(departures(), scan_listeners_.names());
 }
 
 std::set<std::string> NodeInputs::allNodes() const {

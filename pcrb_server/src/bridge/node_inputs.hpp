@@ -5,6 +5,7 @@
 #include <ros/time.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -36,16 +37,17 @@ class NodeInputs {
   /// stamps too far back are left out.
   void sendMotion(const ros::Time& until);
 
-  /// The nodes that take scans now, observers excepted.
-  std::set<std::string> nodes() const { return scan_listeners_.names(); }
+  /// Name of each node under test that ever took scans, and how often it has left: of those that
+  /// take the initial pose, too, if there are any; of all but the observers otherwise.
+  std::map<std::string, int> departures() const;
 
-  /// Those and the ones that take the map or the initial pose.
+  /// Those of them that are there now.
+  std::map<std::string, int> nodes() const;
+
+  /// All that take scan, map or initial pose now, observers excepted.
   std::set<std::string> allNodes() const;
 
   bool isInitialPoseTaken() const { return !initial_pose_listeners_.names().empty(); }
-
-  /// How often a node that took scans has left.
-  int departures() const { return scan_listeners_.departures(); }
 
  private:
   /// Something that is sent at a rate.

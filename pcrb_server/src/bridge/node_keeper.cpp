@@ -27,7 +27,7 @@ void NodeKeeper::beginProblem(bool is_new_target) {
 
 bool NodeKeeper::restart() {
   needs_restart_ = false;
-  left_before_ = inputs_.nodes().empty() ? 0 : inputs_.departures() + 1;
+  before_ = inputs_.nodes();
   std_srvs::Trigger service;
   auto client = node_.serviceClient<std_srvs::Trigger>(parameters_.restart_service);
   // The supervisor may just be starting where it is needed for sure.
@@ -41,24 +41,40 @@ bool NodeKeeper::restart() {
                     ? service.response.message
                     : "nobody answers on " + client.getService() + " (only under node_supervisor)")
             << std::endl;
-  left_before_ = 0;
+  before_.clear();
   return false;
 }
 
 bool NodeKeeper::isThere() const {
-  return !inputs_.nodes().empty() && inputs_.departures() >= left_before_;
+  const auto nodes = inputs_.nodes();
+  return std::any_of(nodes.begin(), nodes.end(), [this](const auto& node) {
+    const auto before = before_.find(node.first);
+    return before == before_.end() || node.second > before->second;
+  });
 }
 
-void NodeKeeper::beginWatch() { left_at_start_ = inputs_.departures(); }
+void NodeKeeper::beginWatch() { at_start_ = inputs_.nodes(); }
 
 void NodeKeeper::beginPlay() { processes_.usage(inputs_.allNodes()); }
 
-bool NodeKeeper::hasLeft() const { return inputs_.departures() != left_at_start_; }
+bool NodeKeeper::hasLeft() const {
+  const auto departures = inputs_.departures();
+  return std::any_of(departures.begin(), departures.end(), [this](const auto& node) {
+    const auto before = at_start_.find(node.first);
+    return before != at_start_.end() && node.second > before->second;
+  });
+}
+
+int NodeKeeper::generation() const {
+  int sum = 0;
+  for (const auto& [node, departures] : inputs_.departures()) sum += departures;
+  return sum;
+}
 
 bool NodeKeeper::isHanging() const {
   const auto nodes = inputs_.nodes();
-  return std::any_of(nodes.begin(), nodes.end(), [](const std::string& node) {
-    return !NodeProcesses::isAlive(node, kAnswerLimit);
+  return std::any_of(nodes.begin(), nodes.end(), [](const auto& node) {
+    return !NodeProcesses::isAlive(node.first, kAnswerLimit);
   });
 }
 

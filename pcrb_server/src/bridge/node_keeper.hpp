@@ -2,7 +2,7 @@
 
 #include <ros/node_handle.h>
 
-#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -51,7 +51,7 @@ class NodeKeeper {
   std::optional<ProcessUsage> usage();
 
   /// Counts the nodes that came and went: another number, another node.
-  int generation() const { return inputs_.departures(); }
+  int generation() const;
 
  private:
   bool isHanging() const;
@@ -61,9 +61,9 @@ class NodeKeeper {
   ros::NodeHandle& node_;
   NodeProcesses processes_;
   bool needs_restart_ = false;
-  int left_before_ = 0;    ///< departures at which the node counts as new
-  int left_at_start_ = 0;  ///< departures when the node had the problem
-  int unanswered_ = 0;     ///< problems in a row
+  std::map<std::string, int> before_;    ///< departures of the nodes to be gone before a new one
+  std::map<std::string, int> at_start_;  ///< departures of the nodes that have the problem
+  int unanswered_ = 0;                   ///< problems in a row
 };
 
 }  // namespace pcrb

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
 #include "pcrb_server/topics.hpp"
 #include "server/client_parameters.hpp"
 #include "server/scoring.hpp"
@@ -128,8 +129,8 @@ void BenchmarkServer::waitForListener() {
     const std::chrono::duration<double> waited = Exchange::Clock::now() - start;
     if (waited.count() > parameters_.connect_limit) {
       throw Error("no client subscribed to `" + node_.resolveName(topics::kProblem) + "` within " +
-                  std::to_string(parameters_.connect_limit) +
-                  " s; rviz, rosbag and rostopic do not count");
+                  formatShortest(parameters_.connect_limit) +
+                  " s (~connect_limit); rviz, rosbag and rostopic do not count");
     }
     std::this_thread::sleep_for(kPollPeriod);
   }
@@ -183,8 +184,9 @@ bool BenchmarkServer::waitForClient() {
     const std::string service = node_.resolveName(services::kReady);
     const std::string listeners = join(publications_.listeners());
     if (rest <= kReminderPeriod) {
-      throw Error("no client called `" + service + "` within " + std::to_string(limit) +
-                  " s (subscribed to `" + node_.resolveName(topics::kProblem) + "`: " + listeners +
+      throw Error("no client called `" + service + "` within " + formatShortest(limit) + " s (" +
+                  (is_first ? "~connect_limit" : "~ready_limit") + "; subscribed to `" +
+                  node_.resolveName(topics::kProblem) + "`: " + listeners +
                   "); results so far are kept: start again with the same ~run to go on");
     }
     std::cout << "waiting for a client to call " << service << " (subscribed: " << listeners << ")"
