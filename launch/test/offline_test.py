@@ -124,8 +124,9 @@ class OfflineTest(TestCase):
             answers = self.path(f'{presentation}_answers.bag')
             self.solve(bag, answers, presentation)
             run = self.path('run', presentation)
-            self.tool('score_poses', self.data.folder('hall_local.txt'), '--poses', answers, '--topic', '/answer',
-                      '--key', key, '--run', run)
+            scoring = ('score_poses', self.data.folder('hall_local.txt'), '--poses', answers, '--key', key, '--run', run)
+            self.assertRegex(self.tool(*scoring, '--topic', '/answer'), r'(?m)^2 poses at other times ignored$')
+            self.assert_tool_fails('expected the id or timestamp of a problem', *scoring, '--topic', '/between')
             self.assertEqual({row['outcome'] for row in rows(run)}, {'replied'})
             self.assertLess(max(row['error'] for row in rows(run)), 1e-5)
 
@@ -150,6 +151,9 @@ class OfflineTest(TestCase):
                     pose = maths.rigid_fit(points, self.data.source_points(source) + float(wrong))
                     maths.fill_pose(answer.pose, pose)
                     written.write('/answer', answer, message.header.stamp)
+            answer.header.stamp += rospy.Duration(0, 1)
+            for topic in '/answer', '/answer', '/between':  # as nodes publish between scans
+                written.write(topic, answer, answer.header.stamp)
 
     def test_bags_are_the_same_bytes_again_and_kept_when_complete(self):
         texts = []

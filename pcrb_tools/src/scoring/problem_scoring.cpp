@@ -32,13 +32,18 @@ class ProblemNames {
     }
   }
 
-  std::string find(const RecordedPose& pose) const {
+  std::optional<std::string> find(const RecordedPose& pose) const {
     if (ids_.count(pose.label) > 0) return pose.label;
     const auto by_id = by_public_id_.find(pose.label);
     if (by_id != by_public_id_.end()) return by_id->second;
     const auto stamp = pose.label.empty() ? pose.stamp : pcrb::parseStamp(pose.label);
     const auto by_stamp = stamp ? by_stamp_.find(*stamp) : by_stamp_.end();
     if (by_stamp != by_stamp_.end()) return by_stamp->second;
+    return std::nullopt;
+  }
+
+  /// Of a pose that find() finds nothing for.
+  [[noreturn]] void refuse(const RecordedPose& pose) const {
     const std::string what = pose.label.empty() ? pcrb::formatStamp(pose.stamp) : pose.label;
     throw pcrb::InvalidFile(pose.place, 0, "`" + what + "`",
                             by_stamp_.empty() ? "the id of a problem (timestamps need --key)"
@@ -51,14 +56,35 @@ class ProblemNames {
   std::map<pcrb::Stamp, std::string> by_stamp_;
 };
 
-/// @param is_bag  an estimator's answers to one scan may follow each other: the last one counts.
-Replies assign(std::vector<RecordedPose> poses, const ProblemNames& names, bool is_bag) {
+/// Of a text, each pose must be the only one of a problem.
+Replies assignText(const std::vector<RecordedPose>& poses, const ProblemNames& names) {
   Replies replies;
-  for (RecordedPose& pose : poses) {
-    const std::string id = names.find(pose);
-    const bool is_new = replies.insert_or_assign(id, std::move(pose.reply)).second;
-    if (is_new || is_bag) continue;
-    throw pcrb::InvalidFile(pose.place, 0, "another pose of problem " + id, "one");
+  for (const RecordedPose& pose : poses) {
+    const auto id = names.find(pose);
+    if (!id) names.refuse(pose);
+    if (replies.emplace(*id, pose.reply).second) continue;
+    throw pcrb::InvalidFile(pose.place, 0, "another pose of problem " + *id, "one");
+  }
+  return replies;
+}
+
+/// Of a bag, an estimator's answers to one scan may follow each other, and poses between the scans
+/// come in between: the last one counts, and those of no problem are counted on a stream.
+Replies assignBag(const std::vector<RecordedPose>& poses, const ProblemNames& names,
+                  std::ostream& out) {
+  Replies replies;
+  std::size_t ignored = 0;
+  for (const RecordedPose& pose : poses) {
+    const auto id = names.find(pose);
+    if (id) {
+      replies.insert_or_assign(*id, pose.reply);
+    } else {
+      ++ignored;
+    }
+  }
+  if (replies.empty()) names.refuse(poses.front());
+  if (ignored > 0) {
+    out << ignored << (ignored == 1 ? " pose" : " poses") << " at other times ignored" << std::endl;
   }
   return replies;
 }
@@ -102,10 +128,10 @@ void runProblemScoring(const ProblemScoringOptions& options, std::ostream& out) 
   const ProblemFilePath path = splitProblemFilePath(options.problem_file);
   std::optional<ProblemKey> key;
   if (!options.key.empty()) key = readKeyOf(path, options.key);
-  const bool is_bag = !options.poses.topic.empty();
+  const auto poses = readPoses(options.poses.path, options.poses.topic, options.poses.map_frame);
+  const ProblemNames names(path.files.problem_file, key);
   const Replies replies =
-      assign(readPoses(options.poses.path, options.poses.topic, options.poses.map_frame),
-             ProblemNames(path.files.problem_file, key), is_bag);
+      options.poses.topic.empty() ? assignText(poses, names) : assignBag(poses, names, out);
   pcrb::OfflineRun run(makeRunOptions(options, path, key));
   Progress progress(path.files.sequence, "problems", run.size());
   const std::string summary = run.score(replies, [&progress] { progress.add(); });
