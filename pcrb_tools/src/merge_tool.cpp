@@ -7,6 +7,7 @@
 #include <set>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/evaluation/answer.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/evaluation/summary.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
@@ -197,9 +198,24 @@ std::string writeRun(const std::string& folder, const std::vector<Part>& parts, 
   return summary;
 }
 
+std::string describeDefects(const std::vector<Part>& parts) {
+  std::string defects;
+  for (const Part& part : parts) {
+    const std::string silence = describeSilence(part.results);
+    if (!silence.empty()) defects += part.name() + ": " + silence + "\n";
+  }
+  return defects;
+}
+
 }  // namespace
 
-std::string runMergeTool(const MergeOptions& options) {
+std::string describeSilence(const std::vector<pcrb::Result>& results) {
+  if (std::any_of(results.begin(), results.end(), pcrb::isAnswered)) return "";
+  return "the node under test never answered: found no reply to " + std::to_string(results.size()) +
+         " problems, expected at least one";
+}
+
+MergeReport runMergeTool(const MergeOptions& options) {
   if (options.runs.empty())
     throw pcrb::InvalidParameter("found no run, expected the shards of one");
   std::vector<Part> parts;
@@ -217,7 +233,7 @@ std::string runMergeTool(const MergeOptions& options) {
   for (const char* file : {"results.sqlite", "results.csv", "summary.txt"}) {
     fs::rename(scratch.path + "/" + file, options.output + "/" + file);
   }
-  return summary;
+  return {summary, describeDefects(parts)};
 }
 
 }  // namespace pcrb_tools

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "evaluation/some_results.hpp"
+#include "pcrb_core/evaluation/answer.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -59,7 +60,7 @@ class MergeToolTest : public ::testing::Test {
 
 TEST_F(MergeToolTest, GivesTheRunThatWouldHaveBeenWithoutShards) {
   makeTwo();
-  const std::string summary = runMergeTool(options_);
+  const std::string summary = runMergeTool(options_).summary;
   EXPECT_NE(summary.find("total"), std::string::npos);
   EXPECT_EQ(merged().finished().size(), 3U);
   EXPECT_EQ(merged().sessions().size(), 2U);
@@ -83,6 +84,33 @@ TEST_F(MergeToolTest, AddsUpWhatTheNodeUnderTestUsed) {
   runMergeTool(options_);
   EXPECT_EQ(merged().runInfo()["node_cpu_time_s"], "3.75");
   EXPECT_EQ(merged().runInfo()["node_peak_memory_bytes"], "3000");
+}
+
+TEST_F(MergeToolTest, NamesShardsWhoseNodeNeverAnsweredAfterItHasWrittenAll) {
+  makeTwo();
+  EXPECT_EQ(runMergeTool(options_).defects, "");
+  pcrb::Result left = pcrb_test::minimalResult("2");
+  left.outcome = pcrb::Outcome::kFailed;
+  left.reason = pcrb::kNodeLeft;
+  pcrb::Result unable = left;
+  unable.reason = "too few points";
+  pcrb::Result rejected = left;
+  rejected.outcome = pcrb::Outcome::kRejected;
+  const pcrb::Result late = pcrb_test::minimalResult("2");
+  for (const pcrb::Result& result : {left, rejected, late, unable}) {
+    fs::remove_all(options_.output);
+    fs::remove_all(options_.runs[0]);
+    makeShard("b", infoOf("1/2", "1"), {});
+    ResultsStore(options_.runs[0], Access::kReadWrite).add(result);
+    const std::string defects = runMergeTool(options_).defects;
+    EXPECT_EQ(merged().count(), 3U);
+    if (result.reason == unable.reason) {
+      EXPECT_EQ(defects, "");
+    } else {
+      EXPECT_EQ(defects.find(options_.runs[0] + " (shard 1/2): the node under test never"), 0U)
+          << defects;
+    }
+  }
 }
 
 TEST_F(MergeToolTest, ReplacesWhatAMergeLeftAndNothingElse) {

@@ -8,12 +8,16 @@ int main(int argc, char** argv) {
   app.footer(
       "The shards must be parts 0/N ... (N-1)/N of one run, each once, all of one configuration,\n"
       "and every problem must have its result. The shards are only read.\n"
+      "Exit status: 0 only if every shard's node has answered; all is written before that is "
+      "said.\n"
       "Example: merge_runs ~/pcrb/run/shards/* -o ~/pcrb/run");
   pcrb_tools::MergeOptions options;
   app.add_option("shards", options.runs, "folders of the shards' results")->required();
   app.add_option("-o,--output", options.output, "folder of the merged run")->required();
   return pcrb_tools::runTool(app, argc, argv, [&] {
-    std::cout << runMergeTool(options) << std::flush;
-    return pcrb_tools::kSuccess;
+    const pcrb_tools::MergeReport report = runMergeTool(options);
+    std::cout << report.summary << std::flush;
+    std::cerr << report.defects << std::flush;
+    return report.defects.empty() ? pcrb_tools::kSuccess : pcrb_tools::kFailure;
   });
 }

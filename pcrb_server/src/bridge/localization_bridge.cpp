@@ -10,6 +10,7 @@
 #include "bridge/empty_call.hpp"
 #include "bridge/rivals.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/evaluation/answer.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
@@ -236,7 +237,7 @@ void LocalizationBridge::play() {
       Request request;
       request.status = Request::FAILED;
       request.solver_time = std::nan("");
-      request.reason = "the node under test left while it had the problem";
+      request.reason = kNodeLeft;
       return submit(request);
     }
     ros::getGlobalCallbackQueue()->callAvailable(

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "pcrb_core/evaluation/result.hpp"
+
 namespace pcrb_tools {
 
 /// What `merge_runs` is asked for.
@@ -11,15 +13,24 @@ struct MergeOptions {
   std::string output;             ///< folder of the merged run; what a merge left there is replaced
 };
 
+/// What a merge gives.
+struct MergeReport {
+  std::string summary;  ///< as in summary.txt
+  std::string defects;  ///< a line for each shard whose node under test never answered
+};
+
+/// What is wrong with a shard in which no result is an answer of the node under test; nothing
+/// otherwise.
+std::string describeSilence(const std::vector<pcrb::Result>& results);
+
 /// Puts the shards of a run together: a run folder like that of a run without shards, with results,
 /// sessions and exports. The shards are only read.
 ///
-/// @return  the summary, as in summary.txt.
 /// @throws pcrb::Error  and writes nothing, if the shards are not all parts of one run (every
 ///                      difference in their configuration is named: parameters, problem files,
 ///                      clouds, client, version), one is missing or there twice, one has problems
 ///                      without a result, two share a problem, or the output is a run that no merge
 ///                      made.
-std::string runMergeTool(const MergeOptions& options);
+MergeReport runMergeTool(const MergeOptions& options);
 
 }  // namespace pcrb_tools

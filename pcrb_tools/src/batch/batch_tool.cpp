@@ -211,7 +211,7 @@ int runBatchTool(const BatchOptions& given) {
     std::cerr << "the run is not complete; start this again with the same folder to go on"
               << std::endl;
   } else if (!options.only) {
-    std::cout << runMergeTool(merge) << std::flush;
+    std::cout << runMergeTool(merge).summary << std::flush;
   }
   return batch.hasDefects() ? kFailure : kSuccess;
 }

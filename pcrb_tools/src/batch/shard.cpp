@@ -4,7 +4,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -13,6 +12,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_tools/merge_tool.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -22,10 +22,6 @@ namespace fs = std::filesystem;
 std::string hostName() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown host";
-}
-
-bool isAnswer(const pcrb::Result& result) {
-  return result.outcome != pcrb::Outcome::kTimedOut && result.outcome != pcrb::Outcome::kSkipped;
 }
 
 }  // namespace
@@ -156,9 +152,8 @@ std::string Shard::defect() {
     return name() + ": " + std::to_string(done()) + of + " problems have a result" +
            lastComplaint();
   }
-  const auto results = store_->results();
-  if (std::any_of(results.begin(), results.end(), isAnswer)) return "";
-  return name() + ": the node under test never answered; see " + logFile();
+  const std::string silence = describeSilence(store_->results());
+  return silence.empty() ? "" : name() + ": " + silence + "; see " + logFile();
 }
 
 /// What a node said on standard error before it gave up, as the suite's nodes say it.

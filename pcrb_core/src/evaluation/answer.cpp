@@ -1,0 +1,10 @@
+#include "pcrb_core/evaluation/answer.hpp"
+
+namespace pcrb {
+
+bool isAnswered(const Result& result) {
+  return result.outcome == Outcome::kReplied ||
+         (result.outcome == Outcome::kFailed && result.reason != kNodeLeft);
+}
+
+}  // namespace pcrb
