@@ -37,13 +37,13 @@ class Child:
     It gets SIGTERM if the test dies first, as when rostest ends one that hangs.
     """
 
-    def __init__(self, command, namespace='/', folder=None, **environment):
+    def __init__(self, command, namespace='/', **environment):
         self.command = command
         self._output = tempfile.TemporaryFile(mode='w+')
         variables = {**os.environ, 'ROS_NAMESPACE': namespace, **environment}
         self.process = subprocess.Popen(
             ['setpriv', '--pdeathsig', 'TERM', *command], stdout=self._output, stderr=subprocess.STDOUT,
-            env=variables, cwd=folder, start_new_session=True)
+            env=variables, start_new_session=True)
 
     def output(self):
         size = os.fstat(self._output.fileno()).st_size
@@ -95,7 +95,7 @@ class Launch(Child):
 class Server(Child):
     """benchmark_server with private parameters, in a namespace of its own unless one is given."""
 
-    def __init__(self, namespace=None, node='benchmark_server', folder=None, **parameters):
+    def __init__(self, namespace=None, node='benchmark_server', **parameters):
         self.namespace = namespace or f'/server{next(_namespaces)}'
         name = f'{self.namespace}/{node}'
         if rospy.has_param(name):
@@ -103,7 +103,7 @@ class Server(Child):
         rospy.set_param(name, {'linger': 0.0, **parameters})
         self.parameters = parameters
         self.run = parameters.get('run')
-        super().__init__([executable('pcrb_server', 'benchmark_server'), f'__name:={node}'], self.namespace, folder)
+        super().__init__([executable('pcrb_server', 'benchmark_server'), f'__name:={node}'], self.namespace)
 
     def again(self, **changes):
         """Another one with the same parameters but for the changes."""

@@ -38,15 +38,28 @@ std::map<std::string, std::string> identity(const ServerParameters& parameters,
   return info;
 }
 
+/// The lines of a text that another one has not: of a method's parameters, those that differ.
+std::string linesOnlyIn(const std::string& text, const std::string& other) {
+  std::istringstream lines(text);
+  std::string found;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_common = ("\n" + other + "\n").find("\n" + line + "\n") != std::string::npos;
+    if (!is_common) found += (found.empty() ? "" : ", ") + line;
+  }
+  return found;
+}
+
 /// A line for each key that does not have the expected value.
 std::string differencesOf(const std::map<std::string, std::string>& found,
                           const std::map<std::string, std::string>& expected) {
   std::string differences;
   for (const auto& [key, value] : expected) {
     const auto there = found.find(key);
-    const std::string before = there == found.end() ? "nothing" : "`" + there->second + "`";
     if (there != found.end() && there->second == value) continue;
-    differences += "\n  " + key + ": the run has " + before + ", asked for `" + value + "`";
+    const std::string before = there == found.end() ? "" : there->second;
+    differences += "\n  " + key + ": the run has " +
+                   (there == found.end() ? "nothing" : "`" + linesOnlyIn(before, value) + "`") +
+                   ", asked for `" + linesOnlyIn(value, before) + "`";
   }
   return differences;
 }
