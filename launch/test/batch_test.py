@@ -46,7 +46,7 @@ class BatchTest(TestCase):
     def batch(self, *options, prefix=(), **arguments):
         arguments = {'root': self.data.root, 'method': 'icp', **arguments}
         return self.start(Child([*prefix, executable('pcrb_tools', 'evaluate_batch'), '--run', self.run, *options,
-                                 *(f'{name}:={value}' for name, value in arguments.items())]))
+                                 *(f'{name}:={value}' for name, value in arguments.items() if value is not None)]))
 
     def shard(self, number):
         return os.path.join(self.run, 'shards', str(number))
@@ -119,6 +119,28 @@ class BatchTest(TestCase):
         os.kill(roslaunch, signal.SIGKILL)
         self.assert_fails(batch, r'shard 0/1: \d+ of 180 problems have a result', 'start this again')
         self.assertEqual(processes_that_name(self.run), [])
+
+    def test_shards_have_map_files_of_their_own_or_are_refused(self):
+        """A node that reads another shard's map would localize well, in the wrong place."""
+        data = maths.make_data_set(self.path('rooms'), points=1000)
+        file = self.path('bridge.yaml')
+        arguments = {
+            'root': data.root, 'sequences': 'hall', 'subset': 2, 'settle': 'first', 'bridge_parameters': file,
+            'node_launch': 'localization_standins ndt_localizer.launch', 'pose_topic': '/ndt_pose',
+            'node_args': 'map_topic=/map ${PCRB_NONE:-scan_topic=/scan}', 'method': None}
+
+        def batch(map_file):
+            with open(file, 'w') as written:
+                written.write(f'map_file: {map_file}\n')
+            return self.batch('--jobs', '2', '--launch', 'localization.launch', **arguments)
+
+        fixed = self.path('map.pcd')
+        self.assert_fails(batch(fixed), fr'shard ./2: .*localization_bridge: ~map_file: found `{fixed}` in use by',
+                          'the run is not complete')
+        shutil.rmtree(self.run)
+        self.assert_ends_well(batch('${TMPDIR}/map.pcd'))
+        self.assertEqual([row['outcome'] for row in rows(self.run)], ['replied'] * 2)
+        self.assertIn('${TMPDIR}/map.pcd', run_info(self.run)['client_parameters'])
 
     def test_a_node_that_never_answers_is_a_failure(self):
         """A thousandth of a second is too short for this method."""

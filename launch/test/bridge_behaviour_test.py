@@ -251,6 +251,13 @@ class BridgeBehaviourTest(BridgeTestCase):
         self.answering(server)
         self.assert_motion_is_scored(self.rows_of_bridge(server, bridge))
 
+    def test_it_refuses_a_map_file_that_another_bridge_writes(self):
+        first, second = self.localization(), self.localization(run='second')
+        bridge = self.bridge(first, map_file=self.path('map.pcd'))
+        bridge.wait_for_output('waiting for a node')
+        self.assert_fails(self.bridge(second, map_file=self.path('map.pcd')),
+                          f'~map_file: found `.*/map.pcd` in use by process {bridge.process.pid} on')
+
     def test_it_refuses_rivals_and_names_them(self):
         server = self.localization()
         self.publisher(f'{server.namespace}/robot/map', PointCloud2, latch=True)

@@ -23,7 +23,8 @@ const pcrb::NodeHelp kHelp{"localization_bridge",
   answer_frame (base_frame)  whose pose an answer is that does not name it
   map_first (true)       false: the map follows the initial pose
   map_settle (1), initialpose_settle (0.1)  s between a new map, an initial pose, and what follows
-  map_file ('')          PCD file to which each map is written
+  map_file ('')          PCD file to which each map is written, of this run alone; $NAME and
+                         ${NAME:-other} are variables of the environment
   send_initialpose (true); initialpose_covariance (3dof)  or 6dof
   initialpose_translation (0.5), initialpose_rotation (0.26)  standard deviations, m and rad
   before_problem ('')    service (Empty or Trigger) that is called before each problem

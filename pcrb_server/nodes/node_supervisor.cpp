@@ -9,7 +9,8 @@ const pcrb::NodeHelp kHelp{"node_supervisor",
                            "localization_bridge asks for that.",
                            R"(Private parameters (default):
   launch            the launch file, or its package and its name, separated by a blank
-  args ('')         its arguments, name=value, separated by blanks
+  args ('')         its arguments, name=value, separated by blanks; $NAME and ${NAME:-other} are
+                    variables of the environment
   autostart (true)  false: start it only when asked for it
 
 Service: ~restart (std_srvs/Trigger) ends the child and all that it started (SIGINT, 5 s later SIGTERM,

@@ -7,9 +7,10 @@
 #include "evaluation/open_store.hpp"
 #include "evaluation/result_row.hpp"
 #include "evaluation/sqlite.hpp"
-#include "evaluation/writer_lock.hpp"
+#include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/csv.hpp"
+#include "pcrb_core/io/file_lock.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/printable_text.hpp"
 
@@ -64,15 +65,23 @@ struct ResultsStore::Impl {
     if (lock) insert_result.emplace(database, insertResultSql(), "add a result");
   }
 
-  static std::unique_ptr<WriterLock> makeLock(const std::string& folder) {
+  static std::unique_ptr<FileLock> makeLock(const std::string& folder) {
     makeFolder(folder);
-    return std::make_unique<WriterLock>(folder);
+    std::unique_ptr<FileLock> lock;
+    try {
+      lock = std::make_unique<FileLock>(folder + "/results.lock");
+    } catch (const InvalidFile& error) {
+      throw StoreError(error.what());
+    }
+    if (lock->isHeld()) return lock;
+    throw StoreError(folder + ": found another writer (" + lock->holder() +
+                     "), expected none: a run folder takes one at a time");
   }
 
   static std::string storePath(const std::string& folder) { return folder + "/results.sqlite"; }
 
   std::string run_folder;
-  std::unique_ptr<WriterLock> lock;
+  std::unique_ptr<FileLock> lock;
   Database database;
   std::optional<Statement> insert_result;  // none where the store is read only
   std::optional<std::int64_t> session;     // row of the session that this object began

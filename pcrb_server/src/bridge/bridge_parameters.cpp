@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include "expand_variables.hpp"
 #include "pcrb_server/node_parameters.hpp"
 #include "subscriber_names.hpp"
 
@@ -85,20 +86,27 @@ void readAnswers(NodeParameters& reader, BridgeParameters& parameters) {
   }
 }
 
-void checkMapFile(NodeParameters& reader, const std::string& path) {
-  if (path.empty()) return;
-  const auto folder = std::filesystem::absolute(path).parent_path();
+std::string readMapFile(NodeParameters& reader) {
+  std::string path = reader.string("map_file", "");
+  reader.check([&] { path = expandVariables("~map_file", path); });
+  if (path.empty()) return path;
+  const std::string mistake = relativePathMistake("map_file", path);
+  if (!mistake.empty()) {
+    reader.addMistake("~map_file: " + mistake);
+    return path;
+  }
+  const auto folder = std::filesystem::path(path).parent_path();
   if (!std::filesystem::is_directory(folder)) {
     reader.addMistake("~map_file: found no folder `" + folder.string() + "`");
   }
+  return path;
 }
 
 void readStart(NodeParameters& reader, BridgeParameters& parameters) {
   parameters.is_map_first = reader.boolean("map_first", true);
   parameters.map_settle = reader.number("map_settle", 1.0, 0.0, kLongTime);
   parameters.initialpose_settle = reader.number("initialpose_settle", 0.1, 0.0, kLongTime);
-  parameters.map_file = reader.path("map_file");
-  checkMapFile(reader, parameters.map_file);
+  parameters.map_file = readMapFile(reader);
   parameters.send_initialpose = reader.boolean("send_initialpose", true);
   parameters.initialpose_translation = reader.number("initialpose_translation", 0.5, 0.0, 1e6);
   parameters.initialpose_rotation = reader.number("initialpose_rotation", 0.26, 0.0, 10.0);

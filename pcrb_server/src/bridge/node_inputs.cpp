@@ -6,6 +6,7 @@
 
 #include <iterator>
 
+#include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
@@ -21,6 +22,14 @@ const ros::Duration kLongestGap(1.0);  // of odometry and IMU that is made up fo
 PointCloud withIntensity(PointCloud cloud) {
   cloud.intensity.resize(cloud.points.size(), 0.0f);
   return cloud;
+}
+
+/// A node that reads another run's map localizes well, in the wrong place.
+void requireMapFileAlone(const std::string& path, std::optional<FileLock>& lock) {
+  lock.emplace(path + ".lock");
+  if (lock->isHeld()) return;
+  throw Error("~map_file: found `" + path + "` in use by " + lock->holder() +
+              ", expected a file of this run's own, such as ${TMPDIR}/map.pcd");
 }
 
 void writeMapFile(const std::string& path, const PointCloud& map) {
@@ -78,6 +87,7 @@ NodeInputs::NodeInputs(ros::NodeHandle& node, const BridgeParameters& parameters
       map_listeners_(parameters.observers),
       scan_listeners_(parameters.observers),
       initial_pose_listeners_(parameters.observers) {
+  if (!parameters.map_file.empty()) requireMapFileAlone(parameters.map_file, map_file_lock_);
   map_ = advertise<sensor_msgs::PointCloud2>(node, parameters.map_topic, map_listeners_, true);
   scan_ = advertise<sensor_msgs::PointCloud2>(node, parameters.scan_topic, scan_listeners_, false);
   initial_pose_ = advertise<geometry_msgs::PoseWithCovarianceStamped>(

@@ -6,10 +6,12 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
 #include "bridge/bridge_parameters.hpp"
+#include "pcrb_core/io/file_lock.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/transform.hpp"
 #include "subscriber_names.hpp"
@@ -21,6 +23,7 @@ namespace pcrb {
 /// constants in the body's frame: they say nothing about the problem.
 class NodeInputs {
  public:
+  /// @throws Error  if another bridge writes its maps to ~map_file.
   NodeInputs(ros::NodeHandle& node, const BridgeParameters& parameters);
 
   /// Publishes the map, latched, and writes it to ~map_file if there is one.
@@ -61,6 +64,7 @@ class NodeInputs {
   void send(Stream& stream, Message message, const ros::Time& until);
 
   const BridgeParameters& parameters_;
+  std::optional<FileLock> map_file_lock_;
   SubscriberNames map_listeners_;
   SubscriberNames scan_listeners_;
   SubscriberNames initial_pose_listeners_;

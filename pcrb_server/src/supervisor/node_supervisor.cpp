@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "expand_variables.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/node_parameters.hpp"
 #include "pcrb_server/topics.hpp"
@@ -40,7 +41,8 @@ SupervisorParameters readSupervisorParameters() {
   if (!mistake.empty()) reader.addMistake("~launch: " + mistake + ", or a package and its file");
   parameters.command.insert(parameters.command.end(), launch.begin(), launch.end());
   for (const auto& word : reader.words("args", "")) {
-    parameters.command.push_back(launchArgument(word));
+    reader.check(
+        [&] { parameters.command.push_back(expandVariables("~args", launchArgument(word))); });
     if (word.find('=') == std::string::npos) {
       reader.addMistake("~args: found `" + word + "`, expected name=value");
     }

@@ -1,12 +1,7 @@
 #include "batch/shard.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -19,10 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string hostName() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown host";
-}
+constexpr std::array<const char*, 5> kComplaints{
+    "benchmark_server: ", "localization_bridge: ", "node_supervisor: ", "cannot start",
+    "RLException"};
 
 }  // namespace
 
@@ -31,7 +25,7 @@ Shard::Shard(std::shared_ptr<const ShardSettings> settings, int number)
 
 Shard::~Shard() {
   process_.reset();
-  freeLock();
+  lock_.reset();
 }
 
 std::string Shard::folder() const { return settings_->run + "/shards/" + std::to_string(number_); }
@@ -42,36 +36,10 @@ std::string Shard::name() const {
 
 std::string Shard::logFile() const { return folder() + "/roslaunch.log"; }
 
-bool Shard::takeLock() {
-  const std::string path = folder() + "/batch.lock";
-  lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (lock_ < 0) throw pcrb::InvalidFile(path, std::strerror(errno));
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    freeLock();
-    return false;
-  }
-  const std::string holder = "process " + std::to_string(getpid()) + " on " + hostName() + "\n";
-  if (ftruncate(lock_, 0) != 0 || write(lock_, holder.data(), holder.size()) < 0) {
-    throw pcrb::InvalidFile(path, std::strerror(errno));
-  }
-  return true;
-}
-
-void Shard::freeLock() {
-  if (lock_ >= 0) close(lock_);
-  lock_ = -1;
-}
-
-std::string Shard::lockHolder() const {
-  std::ifstream file(folder() + "/batch.lock");
-  std::string holder;
-  std::getline(file, holder);
-  return holder;
-}
-
 bool Shard::tryStart() {
   fs::create_directories(folder());
-  if (!takeLock()) return false;
+  lock_ = std::make_unique<pcrb::FileLock>(folder() + "/batch.lock");
+  if (!lock_->isHeld()) return false;
   port_ = std::make_unique<ReservedPort>();
   pcrb::ProgramStart start;
   start.command = settings_->command;
@@ -83,7 +51,10 @@ bool Shard::tryStart() {
                        {"ROS_HOSTNAME", std::nullopt},
                        {"ROS_NAMESPACE", std::nullopt},
                        {"ROS_LOG_DIR", folder() + "/log"}};
-  if (!settings_->scratch.empty()) {
+  if (settings_->scratch.empty()) {
+    tmpdir_ = std::make_unique<TemporaryFolder>("pcrb_shard");
+    start.environment["TMPDIR"] = tmpdir_->path();
+  } else {
     const std::string scratch = settings_->scratch + "/shard_" + std::to_string(number_);
     fs::create_directories(scratch);
     for (const char* name : {"ROS_HOME", "TMPDIR"}) start.environment[name] = scratch;
@@ -91,7 +62,7 @@ bool Shard::tryStart() {
   }
   start.log = logFile();
   log_start_ = fs::exists(start.log) ? static_cast<std::streamoff>(fs::file_size(start.log)) : 0;
-  start.inherited_descriptor = lock_;
+  start.inherited_descriptor = lock_->descriptor();
   process_ = std::make_unique<ChildProcess>(start);
   return true;
 }
@@ -102,7 +73,8 @@ bool Shard::isRunning() {
   process_.reset();
   port_.reset();
   foldLog();
-  freeLock();
+  tmpdir_.reset();
+  lock_.reset();
   return false;
 }
 
@@ -163,9 +135,8 @@ std::string Shard::lastComplaint() const {
   std::string line;
   std::string complaint;
   while (std::getline(log, line)) {
-    const bool is_nodes = line.rfind("benchmark_server: ", 0) == 0 ||
-                          line.rfind("cannot start", 0) == 0 || line.rfind("RLException", 0) == 0;
-    if (is_nodes) complaint = line;
+    const auto begins = [&line](const char* start) { return line.rfind(start, 0) == 0; };
+    if (std::any_of(kComplaints.begin(), kComplaints.end(), begins)) complaint = line;
   }
   return complaint.empty() ? "; see " + logFile() : "; " + complaint + " (" + logFile() + ")";
 }

@@ -10,6 +10,8 @@
 #include "batch/child_process.hpp"
 #include "batch/reserved_port.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/io/file_lock.hpp"
+#include "temporary_folder.hpp"
 
 namespace pcrb_tools {
 
@@ -57,20 +59,21 @@ class Shard {
   std::string defect();
 
   std::string folder() const;
-  std::string name() const;        ///< e.g. `shard 2/4`
-  std::string lockHolder() const;  ///< what the lock's holder wrote of itself
+  std::string name() const;  ///< e.g. `shard 2/4`
+
+  /// Who kept tryStart() from taking the lock.
+  std::string lockHolder() const { return lock_ ? lock_->holder() : ""; }
 
  private:
   void open();
-  bool takeLock();
-  void freeLock();
   void foldLog();
   std::string logFile() const;
   std::string lastComplaint() const;
 
   std::shared_ptr<const ShardSettings> settings_;
   int number_;
-  int lock_ = -1;
+  std::unique_ptr<pcrb::FileLock> lock_;
+  std::unique_ptr<TemporaryFolder> tmpdir_;  ///< TMPDIR while it runs, unless settings name one
   std::unique_ptr<ReservedPort> port_;
   std::unique_ptr<ChildProcess> process_;
   std::unique_ptr<pcrb::ResultsStore> store_;  ///< for reading; none as long as it is not there

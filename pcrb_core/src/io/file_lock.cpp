@@ -1,4 +1,4 @@
-#include "evaluation/writer_lock.hpp"
+#include "pcrb_core/io/file_lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/error.hpp"
 
 namespace pcrb {
 namespace {
@@ -19,10 +19,10 @@ std::string describeThisProcess() {
   return "process " + std::to_string(getpid()) + " on " + host.data();
 }
 
-std::string readText(int descriptor) {
+std::string readHolder(int descriptor) {
   std::array<char, 512> text;
   const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
-  return {text.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
+  return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : "another process";
 }
 
 /// Who holds the lock is only said for people: a full disk must not keep a run from being read.
@@ -34,10 +34,11 @@ void noteHolder(int descriptor) {
 
 }  // namespace
 
-WriterLock::WriterLock(const std::string& run_folder) {
-  const std::string path = run_folder + "/results.lock";
+FileLock::FileLock(const std::string& path) {
   descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw StoreError(path + ": cannot open it: " + std::strerror(errno));
+  if (descriptor_ < 0) {
+    throw InvalidFile(path, std::string("cannot be opened: ") + std::strerror(errno));
+  }
   int status = flock(descriptor_, LOCK_EX | LOCK_NB);
   while (status != 0 && errno == EINTR) status = flock(descriptor_, LOCK_EX | LOCK_NB);
   if (status == 0) {
@@ -45,13 +46,16 @@ WriterLock::WriterLock(const std::string& run_folder) {
     return;
   }
   const int error = errno;
-  const std::string holder = readText(descriptor_);
+  holder_ = readHolder(descriptor_);
   close(descriptor_);
-  if (error != EWOULDBLOCK) throw StoreError(path + ": cannot lock it: " + std::strerror(error));
-  throw StoreError(run_folder + ": found another writer (" + holder +
-                   "), expected none: a run folder takes one at a time");
+  descriptor_ = -1;
+  if (error != EWOULDBLOCK) {
+    throw InvalidFile(path, std::string("cannot be locked: ") + std::strerror(error));
+  }
 }
 
-WriterLock::~WriterLock() { close(descriptor_); }
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
 
 }  // namespace pcrb
