@@ -2,6 +2,7 @@
 """localization_bridge: types of answers, the sensor's mounting, silence, rivals, services, parameters."""
 import os
 import sys
+import time
 
 import numpy as np
 import rosgraph
@@ -20,6 +21,9 @@ from pcrb_testing import Child, executable, wait_until
 from pcrb_testing_bridge import BridgeTestCase, SlowRobot
 
 MOTION = maths.transform(maths.axis_angle([0.1, -0.3, 1], 0.05), [0.2, -0.1, 0.05])
+DRIFT = maths.transform(maths.axis_angle([0, 0, 1], 1.0), [3.0, 2.0, 0.0])
+MOUNTING = maths.transform(maths.axis_angle([0, 0, 1], np.pi) @ maths.axis_angle([0, 1, 0], np.radians(10)),
+                           [1.0, 0.0, 1.9])  # T_base_sensor
 
 
 def fill_transform(transform, T):
@@ -48,6 +52,14 @@ def make_answer(kind, stamp, T):
     if kind is Odometry:
         message.child_frame_id = 'base_link'
     return message
+
+
+def moved_covariance(covariance, arm):
+    """Of x y z rx ry rz of a point that a turn moves since it lies away by `arm`."""
+    x, y, z = arm
+    J = np.eye(6)
+    J[:3, 3:] = [[0, z, -y], [-z, 0, x], [y, -x, 0]]
+    return J @ covariance @ J.T
 
 
 class BridgeBehaviourTest(BridgeTestCase):
@@ -95,22 +107,65 @@ class BridgeBehaviourTest(BridgeTestCase):
         rows = self.scores(server, settle='deadline')
         self.assert_motion_is_scored(rows, times=lambda row: row['scans_used'])
 
-    def test_answers_on_tf_are_composed_through_odom(self):
-        server = self.localization()
+    def test_answers_on_tf_are_composed_through_odom_in_either_order(self):
         broadcaster = tf2_ros.TransformBroadcaster()
-        drift = maths.transform(maths.axis_angle([0, 0, 1], 1.0), [3.0, 2.0, 0.0])
+        for step in 1, -1:
+            server = self.localization(run=f'step{step}', subset=5, time_limit=5.0)
+
+            def publish(stamp, T, step=step):
+                """As a filter beside the robot's own odometry does."""
+                broadcaster.sendTransform([link('odom', 'base_link', DRIFT, stamp),
+                                           link('map', 'odom', T @ np.linalg.inv(DRIFT), stamp)][::step])
+
+            robot = self.robot(server, publish, MOTION)
+            self.assert_motion_is_scored(self.scores(server, pose_topic='tf', tf_odom_base='none'))
+            robot.close()
+
+    def test_an_answer_may_come_before_the_transform_that_it_needs(self):
+        server = self.localization(subset=5, time_limit=5.0)
+        broadcaster = tf2_ros.TransformBroadcaster()
+        publisher = self.publisher(f'{server.namespace}/robot/pose', Odometry)
 
         def publish(stamp, T):
-            """As a filter beside the robot's own odometry does."""
-            broadcaster.sendTransform([link('odom', 'base_link', drift, stamp),
-                                       link('map', 'odom', T @ np.linalg.inv(drift), stamp)])
+            odometry = make_answer(Odometry, stamp, DRIFT)
+            odometry.header.frame_id = 'odom'
+            publisher.publish(odometry)
+            time.sleep(0.02)  # as long as this node takes for the rest of its work
+            broadcaster.sendTransform(link('map', 'odom', T @ np.linalg.inv(DRIFT), stamp))
 
         self.robot(server, publish, MOTION)
-        self.assert_motion_is_scored(self.scores(server, pose_topic='tf', tf_odom_base='none'))
+        self.assert_motion_is_scored(self.scores(server))
+
+    def test_a_covariance_is_that_of_the_sensor_in_the_map_whatever_pose_the_node_tells(self):
+        C = np.diag([1, 2, 3, 4, 5, 6]) * 1e-4
+        R = np.kron(np.eye(2), DRIFT[:3, :3])
+
+        def of_body(T):
+            return moved_covariance(C, -T[:3, :3] @ MOUNTING[:3, 3])
+
+        nodes = {'body': ('map', lambda T: (T, of_body(T)), {}),
+                 'sensor': ('map', lambda T: (T @ MOUNTING, C), {'answer_frame': 'lidar'}),
+                 'turned': ('drifted', lambda T: (np.linalg.inv(DRIFT) @ T, R.T @ of_body(T) @ R), {})}
+        now = rospy.Time.now()
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform([link('base_link', 'lidar', MOUNTING, now), link('map', 'drifted', DRIFT, now)])
+        for name, (parent, tell, parameters) in nodes.items():
+            def answer(kind, stamp, T, parent=parent, tell=tell):
+                pose, covariance = tell(T)
+                message = make_answer(kind, stamp, pose)
+                message.header.frame_id = parent
+                message.pose.covariance = covariance.ravel().tolist()
+                return message
+
+            server = self.localization(run=name, subset=2)
+            robot = self.answering(server, PoseWithCovarianceStamped, answer=answer)
+            rows = self.scores(server, tf_base_scan='none', scan_frame='lidar', **parameters)
+            robot.close()
+            for row in rows.values():
+                stored = np.reshape([float(entry) for entry in row['covariance'].split()], (6, 6))
+                np.testing.assert_allclose(stored, C, rtol=0, atol=1e-9, err_msg=name)
 
     def test_the_sensors_mounting_leaves_the_scores_unchanged(self):
-        tilt = maths.axis_angle([0, 0, 1], np.pi) @ maths.axis_angle([0, 1, 0], np.radians(10))
-        E = maths.transform(tilt, [0.0, 0.0, 1.9])
         first, second = self.twin_servers()
         server = first()
         self.answering(server)
@@ -118,7 +173,7 @@ class BridgeBehaviourTest(BridgeTestCase):
         server = second()
         self.answering(server)
         broadcaster = tf2_ros.StaticTransformBroadcaster()
-        broadcaster.sendTransform(link('base_link', 'lidar', E, rospy.Time.now()))
+        broadcaster.sendTransform(link('base_link', 'lidar', MOUNTING, rospy.Time.now()))
         bridge = self.bridge(server, settle='first', tf_base_scan='none', scan_frame='lidar')
         others = self.rows_of_bridge(server, bridge)
         self.assert_same_scores(rows, others, 1e-9)

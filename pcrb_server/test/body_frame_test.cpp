@@ -43,17 +43,6 @@ TEST(BodyFrame, ARolledOpticalFrameIsTurnedUpright) {
   EXPECT_TRUE(bodyPose(T_map_optical, T_upright_optical).isApprox(T_map_body, 1e-12));
 }
 
-TEST(BodyFrame, ATurnOfTheBodyMovesASensorThatIsMountedAwayFromIt) {
-  std::array<double, 36> body{};
-  body[0] = 0.01;   // x
-  body[35] = 0.04;  // yaw
-  const auto sensor = sensorCovariance(body, pose(5, 5, 0, 0, 0, 0), pose(3, 0, 1, 0, 0, 0));
-  EXPECT_NEAR(sensor[0], 0.01, 1e-12);
-  EXPECT_NEAR(sensor[7], 0.04 * 9, 1e-12);      // y: 3 m ahead of the axis of the yaw
-  EXPECT_NEAR(sensor[6 + 5], 0.04 * 3, 1e-12);  // y with yaw
-  EXPECT_NEAR(sensor[35], 0.04, 1e-12);
-}
-
 TEST(StampClock, NeverGivesAStampTwice) {
   StampClock clock(true);
   EXPECT_EQ(clock.now(1000), 1000);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "pcrb_core/transform.hpp"
@@ -26,11 +25,5 @@ inline Transform sensorPose(const Transform& T_map_body, const Transform& T_body
 ///
 /// @param T_map_optical  the initial guess; without one the roll stays as it is.
 Transform uprightFromOptical(const std::optional<Transform>& T_map_optical);
-
-/// The covariance of the sensor's pose of that of the body's, both row-major x y z rx ry rz in the
-/// map's axes: a rotation of the body moves a sensor that is mounted away from it. First order.
-std::array<double, 36> sensorCovariance(const std::array<double, 36>& body,
-                                        const Transform& T_map_body,
-                                        const Transform& T_body_sensor);
 
 }  // namespace pcrb

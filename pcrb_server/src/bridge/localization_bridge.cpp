@@ -264,6 +264,7 @@ void LocalizationBridge::letNodeFinish() {
   const bool will_be_new =
       keeper_.needsRestart() || parameters_.restart == BridgeParameters::Restart::kProblem;
   const auto is_finished = [&] {
+    player_.takeWaiting();
     return will_be_new || keeper_.hasLeft() || server_.isFinished() ||
            player_.timeToFinish() <= 0.0;
   };

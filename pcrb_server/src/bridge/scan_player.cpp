@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "bridge/body_frame.hpp"
 #include "pcrb_server/message_conversion.hpp"
+#include "pose_covariance.hpp"
 
 namespace pcrb {
 
@@ -13,7 +15,9 @@ namespace {
 
 using Request = pcrb_msgs::SubmitPose::Request;
 
-constexpr double kNanoseconds = 1e9;  // in a second
+constexpr double kNanoseconds = 1e9;       // in a second
+constexpr double kTfLimit = 0.5;           // s for tf to connect a pose that came before it
+constexpr std::size_t kMostWaiting = 100;  // poses
 
 std::int64_t toNanoseconds(double seconds) { return std::llround(seconds * kNanoseconds); }
 
@@ -40,6 +44,7 @@ ScanPlayer::ScanPlayer(const BridgeParameters& parameters, NodeInputs& inputs, T
 void ScanPlayer::begin(const ScanProblem& problem) {
   problem_ = problem;
   unusable_.clear();
+  waiting_.clear();
   inputs_.setScan(problem.source, problem.T_scan_source);
   ScanPolicy policy = parameters_.scans;
   policy.deadline = parameters_.deadline_fraction * problem.time_limit;
@@ -49,9 +54,11 @@ void ScanPlayer::begin(const ScanProblem& problem) {
 void ScanPlayer::end() {
   pace_ = sequence_->paceAtEnd(steadyNow());
   sequence_.reset();
+  waiting_.clear();
 }
 
 ScanSequence::Action ScanPlayer::step() {
+  takeWaiting();
   const auto action = sequence_->next(steadyNow());
   if (action != ScanSequence::Action::kSendScan) return action;
   const std::int64_t time = toNanoseconds(ros::Time::now());
@@ -67,11 +74,14 @@ ScanSequence::Action ScanPlayer::step() {
 
 double ScanPlayer::patience() const { return sequence_->patience(steadyNow()); }
 
-/// T_map_base of a pose of any frame that tf connects with the base, in any that it connects with
-/// the map.
-std::optional<Transform> ScanPlayer::bodyPose(const PublishedPose& pose,
-                                              const ros::Time& time) const {
+/// Takes a pose of any frame that tf connects with the base, in any that it connects with the map;
+/// false if it does not yet.
+bool ScanPlayer::use(const PublishedPose& pose) {
+  const std::int64_t stamp = toNanoseconds(pose.stamp) - toNanoseconds(parameters_.answer_delay);
+  const int scan = sequence_->scanOf(stamp);
+  if (scan == 0) return true;
   const auto& p = parameters_;
+  const ros::Time time = toTime(sequence_->stampOf(scan));
   const std::string& frame = pose.frame.empty() ? p.answer_frame : pose.frame;
   std::optional<Transform> T_map_parent = Transform::Identity();
   std::optional<Transform> T_frame_base = Transform::Identity();
@@ -83,23 +93,33 @@ std::optional<Transform> ScanPlayer::bodyPose(const PublishedPose& pose,
   } else if (frame != p.base_frame) {
     T_frame_base = tf_.find(frame, p.base_frame, time);
   }
-  if (!T_map_parent || !T_frame_base) return std::nullopt;
-  return *T_map_parent * pose.T_parent_frame * *T_frame_base;
+  if (!T_map_parent || !T_frame_base) {
+    unusable_ = "tf does not connect the pose of `" + pose.frame + "` in `" + pose.parent +
+                "` with `" + p.base_frame + "` and `" + p.map_frame + "`";
+    return false;
+  }
+  const Transform T_map_frame = *T_map_parent * pose.T_parent_frame;
+  std::optional<PoseCovariance> covariance;
+  if (pose.covariance) {
+    covariance = mountedCovariance(rotatedCovariance(*pose.covariance, T_map_parent->linear()),
+                                   T_map_frame, *T_frame_base);
+  }
+  sequence_->answerReceived(steadyNow(), stamp, T_map_frame * *T_frame_base, covariance);
+  return true;
 }
 
 void ScanPlayer::take(const PublishedPose& pose) {
   if (!sequence_) return;
-  const std::int64_t stamp = toNanoseconds(pose.stamp) - toNanoseconds(parameters_.answer_delay);
-  const int scan = sequence_->scanOf(stamp);
-  if (scan == 0) return;
-  const ros::Time time = toTime(sequence_->stampOf(scan));
-  const auto T_map_body = bodyPose(pose, time);
-  if (!T_map_body) {
-    unusable_ = "tf does not connect the pose of `" + pose.frame + "` in `" + pose.parent +
-                "` with `" + parameters_.base_frame + "` and `" + parameters_.map_frame + "`";
-    return;
+  waiting_.push_back({pose, steadyNow() + kTfLimit});
+  if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+  takeWaiting();
+}
+
+void ScanPlayer::takeWaiting() {
+  const double now = steadyNow();
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    it = use(it->pose) || now >= it->until ? waiting_.erase(it) : std::next(it);
   }
-  sequence_->answerReceived(steadyNow(), stamp, *T_map_body, pose.covariance);
 }
 
 bool ScanPlayer::isAnswered() const {
@@ -122,7 +142,7 @@ Request ScanPlayer::decision() const {
   request.scans_used = static_cast<std::uint32_t>(answer->scan);
   if (answer->covariance) {
     const auto covariance =
-        sensorCovariance(*answer->covariance, answer->T_map_body, T_base_source);
+        mountedCovariance(*answer->covariance, answer->T_map_body, T_base_source);
     request.has_covariance = 1;
     std::copy(covariance.begin(), covariance.end(), request.covariance.begin());
   }

@@ -2,6 +2,7 @@
 
 #include <pcrb_msgs/SubmitPose.h>
 
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -49,6 +50,10 @@ class ScanPlayer {
   /// A pose that the node published: an answer, if it belongs to a scan of the problem.
   void take(const PublishedPose& pose);
 
+  /// Takes the poses that tf has connected since they came, for which they have half a second: a
+  /// node may publish the transform that its pose needs after it. Also part of step().
+  void takeWaiting();
+
   /// s for which the node may still be working on a scan of the problem.
   double timeToFinish() const { return sequence_->timeToFinish(steadyNow()); }
 
@@ -59,8 +64,12 @@ class ScanPlayer {
   pcrb_msgs::SubmitPose::Request decision() const;
 
  private:
-  ros::Time scanTime(int scan) const;
-  std::optional<Transform> bodyPose(const PublishedPose& pose, const ros::Time& time) const;
+  struct Waiting {
+    PublishedPose pose;
+    double until;  ///< s, steady
+  };
+
+  bool use(const PublishedPose& pose);
 
   const BridgeParameters& parameters_;
   NodeInputs& inputs_;
@@ -70,7 +79,8 @@ class ScanPlayer {
   ScanProblem problem_;
   NodePace pace_;
   std::optional<ScanSequence> sequence_;
-  std::string unusable_;  ///< why the newest pose could not be used, else empty
+  std::deque<Waiting> waiting_;  ///< poses that tf does not connect yet, oldest first
+  std::string unusable_;         ///< why the newest pose could not be used, else empty
 };
 
 /// The clock's stamp for what is sent now, as ROS has it.

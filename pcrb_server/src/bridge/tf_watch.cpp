@@ -3,6 +3,8 @@
 #include <ros/this_node.h>
 #include <tf2/exceptions.h>
 
+#include <vector>
+
 #include "pcrb_server/frame_name.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
@@ -31,6 +33,7 @@ TfWatch::TfWatch(ros::NodeHandle& node, std::set<std::string> owned, Listener li
 void TfWatch::take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static) {
   const std::string& publisher = event.getPublisherName();
   const bool is_own = publisher == ros::this_node::getName();
+  std::vector<geometry_msgs::TransformStamped> taken;
   for (const auto& transform : event.getMessage()->transforms) {
     const std::string child = withoutSlash(transform.child_frame_id);
     if (!is_own && owned_.count(child) > 0 && rival_.empty()) {
@@ -41,8 +44,10 @@ void TfWatch::take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bo
     } catch (const tf2::TransformException&) {
       continue;  // a transform that tf refuses is nobody's answer
     }
-    if (!is_own) listener_(transform);
+    if (!is_own) taken.push_back(transform);
   }
+  // After all of them, since one may need another.
+  for (const auto& transform : taken) listener_(transform);
 }
 
 std::optional<Transform> TfWatch::find(const std::string& target, const std::string& frame,
