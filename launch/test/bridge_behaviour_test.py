@@ -90,7 +90,7 @@ class BridgeBehaviourTest(BridgeTestCase):
 
     def test_answers_of_four_types(self):
         for kind in PoseStamped, PoseWithCovarianceStamped, Odometry, TransformStamped:
-            server = self.localization(run=kind.__name__)
+            server = self.localization(run=kind.__name__, subset=3)
             robot = self.answering(server, kind)
             self.assert_motion_is_scored(self.scores(server, map_settle=0.0))
             robot.close()
@@ -319,13 +319,46 @@ class BridgeBehaviourTest(BridgeTestCase):
         self.assert_fails(self.bridge(server), 'another node does what the bridge does',
                           f'{rospy.get_name()} publishes {server.namespace}/robot/map')
 
-    def test_it_refuses_a_rival_on_tf(self):
-        server = self.localization(run='tf')
-        self.answering(server)
-        broadcaster = tf2_ros.StaticTransformBroadcaster()
-        broadcaster.sendTransform(link('trunk', 'rival_base', np.eye(4), rospy.Time.now()))
-        self.assert_fails(self.bridge(server, base_frame='rival_base'),
-                          f'{rospy.get_name()} publishes the tf frame rival_base')
+    def test_it_refuses_a_rival_of_the_initial_pose_at_the_start(self):
+        server = self.localization()
+        self.publisher(f'{server.namespace}/robot/initialpose', PoseWithCovarianceStamped)
+        self.assert_fails(self.bridge(server), f'{rospy.get_name()} publishes {server.namespace}/robot/initialpose')
+
+    def test_rviz_may_advertise_the_initial_pose_and_during_the_run_anybody(self):
+        server = self.localization(subset=3)
+        topic = f'{server.namespace}/robot/initialpose'
+        rviz = self.start(Child([sys.executable, '-c', f"""
+import rospy
+from geometry_msgs.msg import PoseWithCovarianceStamped
+rospy.init_node('rviz', anonymous=True)
+rospy.Publisher('{topic}', PoseWithCovarianceStamped, queue_size=1)
+print('advertised', flush=True)
+rospy.spin()
+"""]))
+        rviz.wait_for_output('advertised')
+
+        def answer(kind, stamp, T):
+            self.publisher(topic, PoseWithCovarianceStamped)
+            return make_answer(kind, stamp, T)
+
+        self.answering(server, answer=answer)
+        bridge = self.bridge(server, settle='first')
+        self.assert_motion_is_scored(self.rows_of_bridge(server, bridge))
+        self.assertEqual(bridge.output().count('advertises'), 1, bridge.output())
+        self.assertIn(f'{rospy.get_name()} advertises {topic}', bridge.output())
+
+    def test_it_refuses_a_rival_on_tf_and_names_the_switch_for_a_node_that_publishes_its_body(self):
+        server = self.localization(subset=3)
+        broadcaster = tf2_ros.TransformBroadcaster()
+
+        def answer(kind, stamp, T):
+            broadcaster.sendTransform(link('map', 'base_link', T, stamp))
+            return make_answer(kind, stamp, T)
+
+        self.answering(server, answer=answer)
+        self.assert_fails(self.bridge(server, settle='first'),
+                          f'{rospy.get_name()} publishes the tf frame base_link; or set ~tf_odom_base:=none')
+        self.assert_motion_is_scored(self.scores(server, tf_odom_base='none'))
 
     def test_it_lists_its_mistakes(self):
         server = self.localization()

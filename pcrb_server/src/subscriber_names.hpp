@@ -34,9 +34,9 @@ class SubscriberNames {
   /// How often each has left that ever was there, observers excepted.
   std::map<std::string, int> departures() const;
 
- private:
   bool isObserver(const std::string& node) const;
 
+ private:
   const std::vector<std::string> observers_;
   mutable std::mutex mutex_;
   std::multiset<std::string> names_;

@@ -8,7 +8,6 @@
 
 #include "bridge/body_frame.hpp"
 #include "bridge/empty_call.hpp"
-#include "bridge/rivals.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/answer.hpp"
 #include "pcrb_server/message_conversion.hpp"
@@ -36,6 +35,9 @@ LocalizationBridge::LocalizationBridge(const BridgeParameters& parameters, Shutd
       clock_(parameters.has_even_stamps),
       player_(parameters, inputs_, links_, tf_, clock_),
       keeper_(node_, parameters, inputs_),
+      rivals_({node_.resolveName(parameters.map_topic), node_.resolveName(parameters.scan_topic)},
+              node_.resolveName(parameters.initialpose_topic),
+              [this](const std::string& node) { return inputs_.isObserver(node); }),
       server_(nullptr) {
   if (parameters.pose_topic.empty()) return;
   answers_.emplace(node_, parameters.pose_topic,
@@ -60,7 +62,7 @@ bool LocalizationBridge::waitWhileCurrent(const Condition& condition, const std:
   while (!waitFor(is_over, kReminderPeriod)) {
     if (shutdown_.requested()) return false;
     std::cout << "waiting for " << what << std::endl;
-    refuseRivals();
+    rivals_.refuse(tf_.rival());
   }
   return isCurrent();
 }
@@ -78,17 +80,6 @@ bool LocalizationBridge::isCurrent() const {
   return !server_.isFinished() && server_.problem() == problem_;
 }
 
-void LocalizationBridge::refuseRivals() {
-  auto rivals = publishersBeside({node_.resolveName(parameters_.map_topic),
-                                  node_.resolveName(parameters_.scan_topic),
-                                  node_.resolveName(parameters_.initialpose_topic)});
-  if (!tf_.rival().empty()) rivals.push_back(tf_.rival());
-  if (rivals.empty()) return;
-  std::string message = "another node does what the bridge does: start the localizer alone";
-  for (const auto& rival : rivals) message += "\n  " + rival;
-  throw Error(message);
-}
-
 void LocalizationBridge::takeTransform(const geometry_msgs::TransformStamped& transform) {
   if (!parameters_.pose_topic.empty()) return;
   try {
@@ -102,7 +93,7 @@ void LocalizationBridge::takeTransform(const geometry_msgs::TransformStamped& tr
 }
 
 bool LocalizationBridge::run() {
-  refuseRivals();
+  rivals_.refuse(tf_.rival());
   links_.sendStatic(stampNow(clock_));
   const auto is_due = [this] {
     return server_.isFinished() || (server_.problem() && server_.problem() != problem_);
@@ -114,7 +105,8 @@ bool LocalizationBridge::run() {
 void LocalizationBridge::serve() {
   problem_ = server_.problem();
   if (!takeTarget() || !prepareNode()) return;
-  refuseRivals();
+  rivals_.refuse(tf_.rival());
+  rivals_.beginRun();
   keeper_.beginPlay();
   if (!server_.callReady()) {
     problem_.reset();  // try again: the server may be on its way
@@ -169,7 +161,7 @@ bool LocalizationBridge::bringNode() {
     if (shutdown_.requested()) return false;
     std::cout << "waiting for a node that subscribes to "
               << node_.resolveName(parameters_.scan_topic) << std::endl;
-    refuseRivals();
+    rivals_.refuse(tf_.rival());
     if (steadyNow() - start < parameters_.start_limit || parameters_.restart_after == 0) continue;
     std::cout << "there was none within " << parameters_.start_limit << " s (~start_limit)"
               << std::endl;

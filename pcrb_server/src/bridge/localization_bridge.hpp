@@ -10,6 +10,7 @@
 #include "bridge/bridge_parameters.hpp"
 #include "bridge/node_inputs.hpp"
 #include "bridge/node_keeper.hpp"
+#include "bridge/rivals.hpp"
 #include "bridge/scan_player.hpp"
 #include "bridge/stamp_clock.hpp"
 #include "bridge/tf_links.hpp"
@@ -39,7 +40,6 @@ class LocalizationBridge {
   bool waitWhileCurrent(const Condition& condition, const std::string& what);
   void pause(double seconds);
   bool isCurrent() const;
-  void refuseRivals();
   void takeTransform(const geometry_msgs::TransformStamped& transform);
 
   void serve();
@@ -65,6 +65,7 @@ class LocalizationBridge {
   StampClock clock_;
   ScanPlayer player_;
   NodeKeeper keeper_;
+  Rivals rivals_;
   std::optional<AnswerSource> answers_;  ///< none where answers are read from tf
   ServerConnection server_;
 

@@ -50,6 +50,8 @@ class NodeInputs {
   /// All that take scan, map or initial pose now, observers excepted.
   std::set<std::string> allNodes() const;
 
+  bool isObserver(const std::string& node) const { return scan_listeners_.isObserver(node); }
+
   bool isInitialPoseTaken() const { return !initial_pose_listeners_.names().empty(); }
 
  private:

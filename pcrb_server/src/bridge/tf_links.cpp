@@ -4,17 +4,20 @@
 
 namespace pcrb {
 
+std::array<TfLinks::Link, 3> TfLinks::all() const {
+  const auto& p = parameters_;
+  return {{{p.tf_map_odom, "tf_map_odom", p.map_frame, p.odom_frame},
+           {p.tf_odom_base, "tf_odom_base", p.odom_frame, p.base_frame},
+           {p.tf_base_scan, "tf_base_scan", p.base_frame, p.scan_frame}}};
+}
+
 std::vector<geometry_msgs::TransformStamped> TfLinks::links(TfLink kind,
                                                             const ros::Time& stamp) const {
-  const auto& p = parameters_;
   std::vector<geometry_msgs::TransformStamped> links;
-  const auto add = [&](TfLink wanted, const std::string& parent, const std::string& child) {
-    if (wanted != kind) return;
-    links.push_back(toMessage(Transform::Identity(), makeHeader(parent, stamp), child));
-  };
-  add(p.tf_map_odom, p.map_frame, p.odom_frame);
-  add(p.tf_odom_base, p.odom_frame, p.base_frame);
-  add(p.tf_base_scan, p.base_frame, p.scan_frame);
+  for (const Link& link : all()) {
+    if (link.kind != kind) continue;
+    links.push_back(toMessage(Transform::Identity(), makeHeader(link.parent, stamp), link.child));
+  }
   return links;
 }
 
@@ -28,10 +31,10 @@ void TfLinks::sendDynamic(const ros::Time& stamp) {
   if (!links.empty()) dynamic_.sendTransform(links);
 }
 
-std::set<std::string> TfLinks::ownedChildren() const {
-  std::set<std::string> children;
-  for (const TfLink kind : {TfLink::kStatic, TfLink::kDynamic}) {
-    for (const auto& link : links(kind, ros::Time())) children.insert(link.child_frame_id);
+std::map<std::string, std::string> TfLinks::ownedChildren() const {
+  std::map<std::string, std::string> children;
+  for (const Link& link : all()) {
+    if (link.kind != TfLink::kNone) children.emplace(link.child, link.parameter);
   }
   return children;
 }

@@ -5,7 +5,8 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <set>
+#include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,18 @@ class TfLinks {
   /// Publishes the dynamic links with a scan's stamp.
   void sendDynamic(const ros::Time& stamp);
 
-  /// Frames whose parent the bridge says: nobody else may.
-  std::set<std::string> ownedChildren() const;
+  /// Frames whose parent the bridge says: nobody else may. Each with the parameter that says so.
+  std::map<std::string, std::string> ownedChildren() const;
 
  private:
+  struct Link {
+    TfLink kind;
+    const char* parameter;
+    const std::string& parent;
+    const std::string& child;
+  };
+
+  std::array<Link, 3> all() const;
   std::vector<geometry_msgs::TransformStamped> links(TfLink kind, const ros::Time& stamp) const;
 
   const BridgeParameters& parameters_;

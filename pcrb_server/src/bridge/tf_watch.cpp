@@ -17,7 +17,7 @@ constexpr std::uint32_t kQueue = 1000;
 
 }  // namespace
 
-TfWatch::TfWatch(ros::NodeHandle& node, std::set<std::string> owned, Listener listener)
+TfWatch::TfWatch(ros::NodeHandle& node, std::map<std::string, std::string> owned, Listener listener)
     : owned_(std::move(owned)), listener_(std::move(listener)), buffer_(ros::Duration(kKeep)) {
   using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
   const auto no_delay = ros::TransportHints().tcpNoDelay();
@@ -36,8 +36,10 @@ void TfWatch::take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bo
   std::vector<geometry_msgs::TransformStamped> taken;
   for (const auto& transform : event.getMessage()->transforms) {
     const std::string child = withoutSlash(transform.child_frame_id);
-    if (!is_own && owned_.count(child) > 0 && rival_.empty()) {
-      rival_ = publisher + " publishes the tf frame " + child;
+    const auto owned = owned_.find(child);
+    if (!is_own && owned != owned_.end() && rival_.empty()) {
+      rival_ = publisher + " publishes the tf frame " + child + "; or set ~" + owned->second +
+               ":=none if the localizer publishes " + child + " itself";
     }
     try {
       buffer_.setTransform(transform, publisher, is_static);

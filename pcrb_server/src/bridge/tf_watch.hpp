@@ -7,8 +7,8 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <functional>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "pcrb_core/transform.hpp"
@@ -21,20 +21,22 @@ class TfWatch {
   /// Called for every transform of /tf that another node publishes.
   using Listener = std::function<void(const geometry_msgs::TransformStamped&)>;
 
-  /// @param owned  child frames whose publisher is this node alone.
-  TfWatch(ros::NodeHandle& node, std::set<std::string> owned, Listener listener);
+  /// @param owned  child frames whose publisher is this node alone, each with the parameter that
+  ///               leaves it to others.
+  TfWatch(ros::NodeHandle& node, std::map<std::string, std::string> owned, Listener listener);
 
   /// T_target_frame at a time (0: the newest), or nothing where tf does not connect the two.
   std::optional<Transform> find(const std::string& target, const std::string& frame,
                                 const ros::Time& stamp) const;
 
-  /// Who publishes a child frame that this node owns, and which; empty if nobody does.
+  /// Who publishes a child frame that this node owns, which, and what to do if that is as it should
+  /// be; empty if nobody does.
   const std::string& rival() const { return rival_; }
 
  private:
   void take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static);
 
-  std::set<std::string> owned_;
+  std::map<std::string, std::string> owned_;
   Listener listener_;
   std::string rival_;
   tf2::BufferCore buffer_;
