@@ -77,8 +77,6 @@ std::string MethodChoice::inEffect() const {
   return text;
 }
 
-void MethodChoice::announce() const {
-  ros::param::set(std::string("~") + kInEffect, inEffect());
-}
+void MethodChoice::announce() const { ros::param::set(std::string("~") + kInEffect, inEffect()); }
 
 }  // namespace pcrb_tools
