@@ -5,9 +5,40 @@ import time
 import numpy as np
 import pcrb_testing_data as maths
 import rospy
-from geometry_msgs.msg import Pose, PoseWithCovarianceStamped
+from geometry_msgs.msg import Pose, PoseStamped, PoseWithCovarianceStamped, TransformStamped
+from nav_msgs.msg import Odometry
 from pcrb_testing import Child, Server, TestCase, executable
 from sensor_msgs.msg import PointCloud2
+
+MOTION = maths.transform(maths.axis_angle([0.1, -0.3, 1], 0.05), [0.2, -0.1, 0.05])
+
+
+def fill_transform(transform, T):
+    """Writes a 4 x 4 into a geometry_msgs/Transform."""
+    pose = maths.fill_pose(PoseStamped().pose, T)
+    t = transform.translation
+    t.x, t.y, t.z = pose.position.x, pose.position.y, pose.position.z
+    transform.rotation = pose.orientation
+
+
+def link(parent, child, T, stamp):
+    message = TransformStamped()
+    message.header.frame_id, message.header.stamp, message.child_frame_id = parent, stamp, child
+    fill_transform(message.transform, T)
+    return message
+
+
+def make_answer(kind, stamp, T):
+    """A message of one of the types that nodes publish."""
+    if kind is TransformStamped:
+        return link('map', 'base_link', T, stamp)
+    message = kind()
+    message.header.frame_id, message.header.stamp = 'map', stamp
+    pose = message.pose if kind is PoseStamped else message.pose.pose
+    maths.fill_pose(pose, T)
+    if kind is Odometry:
+        message.child_frame_id = 'base_link'
+    return message
 
 
 class Bridge(Child):
@@ -151,3 +182,31 @@ class SlowRobot(Robot):
         time.sleep(self.work)
         self.pose = pose
         self.publish(cloud.header.stamp, pose)
+
+
+class AnsweringTestCase(BridgeTestCase):
+    """Runs through the bridge with a robot that answers."""
+
+    def publisher(self, name, kind, **options):
+        publisher = rospy.Publisher(name, kind, queue_size=10, **options)
+        self.addCleanup(publisher.unregister)
+        return publisher
+
+    def answering(self, server, kind=PoseStamped, motion=MOTION, answer=make_answer, **options):
+        """A robot whose answers are of that type."""
+        publisher = self.publisher(f'{server.namespace}/robot/pose', kind)
+        return self.robot(server, lambda stamp, T: publisher.publish(answer(kind, stamp, T)), motion, **options)
+
+    def scores(self, server, **parameters):
+        """Of a run through the bridge; the robot has been made."""
+        rows = self.rows_of_bridge(server, self.bridge(server, **{'settle': 'first', **parameters}))
+        self.assertEqual({row['outcome'] for row in rows.values()}, {'replied'}, rows)
+        return rows
+
+    def assert_motion_is_scored(self, rows, times=lambda row: 1):
+        """What is left is MOTION P, once or for each scan: the guess is P V, and V is the truth."""
+        for row in rows.values():
+            problem = self.data.by_id(row['problem_id'])
+            motion = np.linalg.matrix_power(MOTION, times(row))
+            error = maths.error(self.data.source_points(problem), motion @ self.data.local_P(problem))
+            self.assertAlmostEqual(row['error'] / error, 1, delta=1e-5, msg=row)

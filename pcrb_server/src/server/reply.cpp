@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pose_covariance.hpp"
+
 namespace pcrb {
 
 namespace {
@@ -12,17 +14,6 @@ using Request = pcrb_msgs::SubmitPose::Request;
 Outcome outcomeOf(std::uint8_t status) {
   if (status == Request::POSE) return Outcome::kReplied;
   return status == Request::FAILED ? Outcome::kFailed : Outcome::kTimedOut;
-}
-
-/// A covariance of x y z rx ry rz about the axes of a frame, about those of the target.
-std::array<double, 36> rotated(const std::array<double, 36>& covariance, const Transform& T) {
-  using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-  Matrix6 R = Matrix6::Zero();
-  R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = T.linear();
-  std::array<double, 36> result;
-  Eigen::Map<Matrix6>(result.data()) =
-      R * Eigen::Map<const Matrix6>(covariance.data()) * R.transpose();
-  return result;
 }
 
 }  // namespace
@@ -51,7 +42,8 @@ Reply makeReply(const Request& request, const std::optional<Transform>& T_target
   if (request.has_covariance != 0) {
     reply.covariance.emplace();
     std::copy(request.covariance.begin(), request.covariance.end(), reply.covariance->begin());
-    if (T_target_frame) reply.covariance = rotated(*reply.covariance, *T_target_frame);
+    if (T_target_frame)
+      reply.covariance = rotatedCovariance(*reply.covariance, T_target_frame->linear());
   }
   return reply;
 }
