@@ -132,11 +132,11 @@ void NodeInputs::sendInitialPose(const Transform& T_map_body, const ros::Time& s
   message.pose.pose = toMessage(T_map_body);
   const double position = parameters_.initialpose_translation;
   const double angle = parameters_.initialpose_rotation;
-  for (const std::size_t i : {0, 1}) message.pose.covariance[7 * i] = position * position;
+  for (const std::size_t i : {0U, 1U}) message.pose.covariance[7 * i] = position * position;
   message.pose.covariance[35] = angle * angle;
   if (parameters_.has_6dof_covariance) {
     message.pose.covariance[14] = position * position;
-    for (const std::size_t i : {3, 4}) message.pose.covariance[7 * i] = angle * angle;
+    for (const std::size_t i : {3U, 4U}) message.pose.covariance[7 * i] = angle * angle;
   }
   initial_pose_.publish(message);
 }
