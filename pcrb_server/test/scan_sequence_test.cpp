@@ -220,6 +220,22 @@ TEST_F(ScanSequenceTest, AnEchoOfTheInitialPoseIsNoEndOfWork) {
   EXPECT_FALSE(scans.paceAtEnd(kStart + 0.1).isKnown());
 }
 
+TEST_F(ScanSequenceTest, AfterAnEchoTheNextScanWaitsForTheAnswerAsLongAsOneTakes) {
+  ScanSequence unknown(policy_, {}, Transform::Identity(), kStart);
+  send(unknown, kStart);
+  unknown.answerReceived(kStart + 0.01, stamp(1), Transform::Identity(), std::nullopt);
+  EXPECT_EQ(unknown.next(kStart + 0.999), Action::kWait);
+  EXPECT_EQ(unknown.next(kStart + 1.0), Action::kSendScan);
+  answer(unknown, kStart + 0.3, 1);
+  EXPECT_EQ(unknown.next(kStart + 0.3), Action::kSendScan);
+  pace_.add(0.2);
+  ScanSequence known(policy_, {}, Transform::Identity(), kStart, pace_);
+  send(known, kStart);
+  known.answerReceived(kStart + 0.01, stamp(1), Transform::Identity(), std::nullopt);
+  EXPECT_EQ(known.next(kStart + 0.399), Action::kWait);
+  EXPECT_EQ(known.next(kStart + 0.401), Action::kSendScan);
+}
+
 TEST_F(ScanSequenceTest, WithoutStampsAnAnswerEndsTheWorkOnTheOldestScan) {
   policy_.match_by_stamp = false;
   auto scans = sequence(Kind::kFirst);

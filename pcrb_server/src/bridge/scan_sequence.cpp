@@ -36,9 +36,14 @@ double ScanSequence::lateness() const {
   return std::max(policy_.answer_limit, kPatience * pace_.latest());
 }
 
-/// When the scan after the one sent last is due.
+/// When the scan after the one sent last is due. One that echoes the initial pose may still answer
+/// the same scan, or only the next.
 double ScanSequence::nextScan() const {
-  return scans_.back().sent + (is_answered_ ? policy_.period : lateness());
+  const bool has_only_echoed = settling_.hasEchoed() && !settling_.latest();
+  double wait = lateness();
+  if (has_only_echoed && pace_.isKnown()) wait = kPatience * pace_.latest();
+  if (is_answered_) wait = 0.0;
+  return scans_.back().sent + std::max(policy_.period, wait);
 }
 
 ScanSequence::Action ScanSequence::next(double now) const {
@@ -70,11 +75,12 @@ bool ScanSequence::answerReceived(double now, std::int64_t stamp, const Transfor
                                   const std::optional<std::array<double, 36>>& covariance) {
   const int scan = scanOf(stamp);
   if (scan == 0) return false;
-  is_answered_ = true;
   const bool counts = rule_.kind == SettlingRule::Kind::kDeadline || scan <= policy_.max_scans ||
                       !policy_.match_by_stamp;
   const bool is_echo_or_old = counts && !settling_.add({scan, T_map_body, covariance});
-  if (!is_echo_or_old) noteAnswer(now, scan);
+  if (is_echo_or_old) return true;
+  is_answered_ = true;
+  noteAnswer(now, scan);
   return true;
 }
 

@@ -93,7 +93,7 @@ class ScanSequence {
   double start_;
   NodePace pace_;
   std::vector<Scan> scans_;     ///< sent
-  bool is_answered_ = false;    ///< whether anything was said since the last scan was sent
+  bool is_answered_ = false;    ///< whether an answer came since the last scan was sent
   int newest_answered_ = 0;     ///< scan that was answered, an echo excepted, 0 = none
   double last_answered_ = 0.0;  ///< when that was
 };

@@ -132,7 +132,7 @@ std::string plotSvg(const std::vector<SequenceAccuracy>& sequences) {
                      "<rect width='100%' height='100%' fill='white'/>\n";
   for (std::size_t i = 0; i < known.size(); ++i) {
     const double left = kWidth * static_cast<double>(i % kColumns);
-    const double top = kHeight * static_cast<double>(i / kColumns);
+    const double top = kHeight * static_cast<double>((i - i % kColumns) / kColumns);
     text += "<g transform='translate(" + px(left) + " " + px(top) + ")'>\n" +
             Panel(known[i]).svg() + "</g>\n";
   }
