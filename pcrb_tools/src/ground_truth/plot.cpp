@@ -131,8 +131,10 @@ std::string plotSvg(const std::vector<SequenceAccuracy>& sequences) {
                      ".axis{stroke:#333}.gaussian{fill:none;stroke:#222;stroke-width:1.3}</style>\n"
                      "<rect width='100%' height='100%' fill='white'/>\n";
   for (std::size_t i = 0; i < known.size(); ++i) {
-    const double left = kWidth * static_cast<double>(i % kColumns);
-    const double top = kHeight * static_cast<double>((i - i % kColumns) / kColumns);
+    const std::size_t column = i % kColumns;
+    const std::size_t row = i / kColumns;
+    const double left = kWidth * static_cast<double>(column);
+    const double top = kHeight * static_cast<double>(row);
     text += "<g transform='translate(" + px(left) + " " + px(top) + ")'>\n" +
             Panel(known[i]).svg() + "</g>\n";
   }
