@@ -15,6 +15,8 @@ constexpr const char* kBlanksAndLineEnds = " \t\r\n";
 constexpr std::size_t kSmallestChunk = 1
                                        << 16;  // bytes; below it a thread costs more than it saves
 
+constexpr std::size_t kCacheLine = 64;  // bytes
+
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 bool isLineEnd(char c) { return c == '\r' || c == '\n'; }
 
@@ -91,7 +93,8 @@ struct Part {
   const char* malformed = nullptr;  // the first row that is, if any
 };
 
-class AsciiReader {
+/// On cache lines of its own: all threads read it, and one of them keeps its part beside it.
+class alignas(kCacheLine) AsciiReader {
  public:
   AsciiReader(const PcdHeader& header, const LineReader& lines)
       : lines_(lines), points_(header.points) {
