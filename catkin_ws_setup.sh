@@ -2,7 +2,7 @@
 # Sets up this checkout as a catkin workspace, builds it, tests it, shows it.
 #
 #   catkin_ws_setup.sh deps      installs the Debian packages that are missing (apt-get, as root or by sudo)
-#   catkin_ws_setup.sh build     deps, links to the packages in src/pcrb/, catkin_make
+#   catkin_ws_setup.sh build     deps, catkin_make: this checkout is base and source space of the workspace
 #   catkin_ws_setup.sh test      build, then all unit tests and rostests; --long adds those that take minutes
 #   catkin_ws_setup.sh demo      build, then from simulated logs of four data sets to a scored run and a report
 #   catkin_ws_setup.sh clean     removes what the others made in this checkout
@@ -13,8 +13,6 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd -P)
-links=$root/src/pcrb
-packages=(launch localization_standins pcrb_core pcrb_msgs pcrb_server pcrb_tools)
 
 needed_debian_packages=(
   catkin ccache cmake g++ make pkg-config
@@ -88,64 +86,23 @@ install_dependencies() {
 
 # --- build ------------------------------------------------------------------------------------------
 
-# Prints the workspace whose src/ holds this checkout, or nothing. A folder src with nothing but
-# catkin's spaces beside it is taken for a workspace that is about to be made.
-enclosing_workspace() {
-  local folder=$root workspace others
-  while folder=$(dirname "$folder") && [ "$folder" != / ]; do
-    [ "$(basename "$folder")" = src ] || continue
-    workspace=$(dirname "$folder")
-    others=$(find "$workspace" -mindepth 1 -maxdepth 1 ! -name '.*' ! -name src ! -name build \
-      ! -name devel ! -name install ! -name log ! -name logs -print -quit)
-    if [ -e "$workspace/.catkin_workspace" ] || [ -d "$workspace/.catkin_tools" ] ||
-      grep -qs catkin "$folder/CMakeLists.txt" || { [ -z "$others" ] && [ "$workspace" != "${HOME:-}" ]; }; then
-      echo "$workspace"
-      return
-    fi
-  done
-}
-
-# A link's text climbs to / by the name of every folder above this checkout, checks that it is at /
-# (only there is an etc), and comes down again: from /me/suite/src/pcrb it reads
-# ../../../suite/../../me/../etc/../me/suite/pcrb_msgs. So it leads to the package from here only. catkin
-# follows links, and when this tree is copied into another workspace's src/ it must not find a
-# package through the copied link as well, in the copy or back in the original (a plain
-# ../../pcrb_msgs or /me/suite/pcrb_msgs would lead there): a link that leads nowhere is invisible to it.
-link_text() {
-  local climb='../' folder=$root
-  while [ "$folder" != / ]; do
-    climb+="../../$(basename "$folder")/"
-    folder=$(dirname "$folder")
-  done
-  echo "${climb}../etc/..$root/$1"
-}
-
-link_packages() {
-  local workspace package text
-  workspace=$(enclosing_workspace)
-  if [ -n "$workspace" ]; then
-    rm -rf "$links"
-    fail "this checkout lies in the workspace $workspace: no links are made in its own src/, build it there," \
-      "catkin_make -C $workspace -DPYTHON_EXECUTABLE=/usr/bin/python3"
-  fi
-  mkdir -p "$links"
-  for package in "${packages[@]}"; do
-    text=$(link_text "$package")
-    if [ "$(readlink "$links/$package")" != "$text" ]; then
-      say "link src/pcrb/$package"
-      ln -sfn "$text" "$links/$package"
-    fi
-    [ -e "$links/$package/package.xml" ] || fail "src/pcrb/$package leads nowhere, though it reads $text"
-  done
-}
-
 # A build space that was made elsewhere (a moved or copied checkout) is of no use here.
 drop_foreign_build_space() {
   local cache=$root/build/CMakeCache.txt
-  if [ -e "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root/src" "$cache"; then
+  if [ -e "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
     say "remove build/ and devel/, which were made in another folder"
     rm -rf "$root/build" "$root/devel"
   fi
+}
+
+# What is made here is never searched for packages: neither here, where the whole checkout is the source space,
+# nor in a workspace whose src/ this tree is copied into.
+hide_products() {
+  local folder
+  for folder in build devel install demo; do
+    mkdir -p "$root/$folder"
+    touch "$root/$folder/CATKIN_IGNORE"
+  done
 }
 
 # One compiler takes up to 2 GB, because of PCL's headers.
@@ -166,20 +123,17 @@ set_environment() {
 }
 
 run_catkin_make() {
-  catkin_make -C "$root" "-j$(parallel_jobs)" "$@" --cmake-args -Wno-dev \
+  catkin_make -C "$root" --source . "-j$(parallel_jobs)" "$@" --cmake-args -Wno-dev \
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DPCRB_WERROR=${PCRB_WERROR:-OFF}"
 }
 
 build_workspace() {
   case $root in *[[:space:]]*) fail "catkin cannot build in a folder with spaces in its path: $root" ;; esac
   [ -w "$root" ] || fail "cannot write to $root"
-  link_packages
   install_dependencies "${needed_debian_packages[@]}"
   set_environment
   drop_foreign_build_space
-  # Without this, an install space made here would be searched for packages where this tree is copied.
-  mkdir -p "$root/install"
-  touch "$root/install/CATKIN_IGNORE"
+  hide_products
   say "build: catkin_make in $root"
   run_catkin_make || fail "the build failed, see above"
   say "built; to use it: source $root/devel/setup.bash"
@@ -207,7 +161,7 @@ show_demo() {
   build_workspace
   local logs=$root/demo/logs data=$root/demo/data run=$root/demo/run
   rm -rf "$root/demo"
-  mkdir -p "$root/demo"
+  hide_products
   set +u
   # shellcheck source=/dev/null
   . "$root/devel/setup.bash"
@@ -235,9 +189,9 @@ show_demo() {
 # --- clean ------------------------------------------------------------------------------------------
 
 clean_workspace() {
-  say "clean: remove build/ devel/ install/ demo/ and the links in src/"
-  if [ -L "$root/src/CMakeLists.txt" ]; then rm "$root/src/CMakeLists.txt"; fi
-  rm -rf "$links" "$root/build" "$root/devel" "$root/install" "$root/demo" "$root/.catkin_workspace"
+  say "clean: remove build/ devel/ install/ demo/ and what catkin_make puts beside them"
+  if [ -L "$root/CMakeLists.txt" ]; then rm "$root/CMakeLists.txt"; fi
+  rm -rf "$root/build" "$root/devel" "$root/install" "$root/demo" "$root/.catkin_workspace"
 }
 
 main() {
