@@ -28,7 +28,7 @@ needed_debian_packages=(
 )
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
 ci_debian_packages=(catkin-lint chromium clang clang-format clang-tidy iproute2 libclang-rt-14-dev locales munge
-  python3-pip python3-setuptools python3-wheel shellcheck slurm-wlm xvfb)
+  doxygen python3-pip python3-setuptools python3-wheel shellcheck slurm-wlm xvfb)
 
 say() { printf '==> %s\n' "$*"; }
 

@@ -1,6 +1,6 @@
 """Builds the Python package pcrb and the library under it by CMake, without ROS: pip install ./pcrb_core.
 
-Needs what pcrb_core needs (README, Building) and pybind11-dev; JOBS=N sets the number of parallel compilers.
+Needs what pcrb_core needs (docs/building.md) and pybind11-dev; JOBS=N sets the number of parallel compilers.
 """
 import os
 import pathlib

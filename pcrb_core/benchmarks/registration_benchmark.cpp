@@ -2,7 +2,7 @@
 // points in either cloud after a voxel grid of 0.2 m; then their accuracy (`accuracy/…`) on a part
 // of the real problems, every method with its default parameters and the data set's leaf. Peers:
 // PCL's own classes where a method is built on them, else a figure that was measured elsewhere
-// (counter `peer_ms`, see doc/performance.md).
+// (counter `peer_ms`, see docs/benchmarks.md).
 //
 //   PCRB_SHARED_DATA=/path/to/shared/data registration_benchmark
 

@@ -30,7 +30,7 @@ const char* scanAnyDouble(const char* begin, const char* end, double& value) noe
 }
 
 // What follows reads plain decimals, nearly all numbers of point clouds, in 2/3 of the time of
-// std::from_chars (doc/performance.md): eight digits at a time, then w / 10^k by a multiplication
+// std::from_chars (docs/benchmarks.md): eight digits at a time, then w / 10^k by a multiplication
 // that knows its error. Whatever is not plain, or too close to a tie to be sure, is left to
 // from_chars, so that the result is the same.
 
