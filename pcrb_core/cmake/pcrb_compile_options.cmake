@@ -6,6 +6,7 @@ set(PCRB_SANITIZE "" CACHE STRING "Sanitizers for all targets, e.g. address,unde
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
+option(PCRB_UNITY "Compile several sources of a target in one go: most of the time goes into headers" ON)
 find_program(PCRB_CCACHE ccache)
 if(PCRB_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${PCRB_CCACHE})
@@ -27,4 +28,9 @@ function(pcrb_set_compile_options target)
       -fsanitize=${PCRB_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
     target_link_options(${target} PUBLIC -fsanitize=${PCRB_SANITIZE})
   endif()
+endfunction()
+
+# Compiles ten sources of a target in one go. Names in unnamed namespaces must then differ within the target.
+function(pcrb_set_unity_build target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PCRB_UNITY} UNITY_BUILD_BATCH_SIZE 10)
 endfunction()

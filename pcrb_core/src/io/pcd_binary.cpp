@@ -42,7 +42,7 @@ double loadInteger(const PcdField& field, const char* bytes) {
 }
 
 /// Where the values of one field lie: in rows (binary) or together (binary_compressed).
-struct Column {
+struct BinaryColumn {
   PcdField field;
   const char* first = nullptr;
   std::size_t stride = 0;
@@ -57,10 +57,11 @@ struct Column {
   }
 };
 
-void collect(const PcdHeader& header, const std::vector<Column>& columns, DatasetCloud& cloud) {
-  const Column& x = columns[header.find("x")];
-  const Column& y = columns[header.find("y")];
-  const Column& z = columns[header.find("z")];
+void collect(const PcdHeader& header, const std::vector<BinaryColumn>& columns,
+             DatasetCloud& cloud) {
+  const BinaryColumn& x = columns[header.find("x")];
+  const BinaryColumn& y = columns[header.find("y")];
+  const BinaryColumn& z = columns[header.find("z")];
   const std::size_t intensity = header.find("intensity");
   cloud.points.reserve(header.points);
   if (intensity < columns.size()) cloud.intensity.reserve(header.points);
@@ -109,7 +110,7 @@ void collectFields(const PcdHeader& header, const LineReader& lines, std::string
     lines.fail(std::to_string(values.size()) + " bytes of uncompressed data",
                describe(header, rowBytes(header, false)));
   }
-  std::vector<Column> columns;
+  std::vector<BinaryColumn> columns;
   const char* first = values.data();
   for (const PcdField& field : header.fields) {
     columns.push_back({field, first, field.bytes()});
@@ -127,7 +128,7 @@ void readPcdBinary(const PcdHeader& header, const LineReader& lines, DatasetClou
       !isFill(data.substr(header.points * row_bytes))) {
     lines.fail(std::to_string(data.size()) + " bytes of data", describe(header, row_bytes));
   }
-  std::vector<Column> columns;
+  std::vector<BinaryColumn> columns;
   const char* first = data.data();
   for (const PcdField& field : header.fields) {
     columns.push_back({field, first, row_bytes});

@@ -19,7 +19,7 @@ using Point = pcl::PointXYZ;
 using Criteria = pcl::registration::DefaultConvergenceCriteria<double>;
 using Estimation = pcl::registration::CorrespondenceEstimationBase<Point, Point, double>;
 
-constexpr std::size_t kMinPoints = 10;
+constexpr std::size_t kMinIcpPoints = 10;
 
 class ParallelEstimation : public Estimation {
  public:
@@ -123,14 +123,14 @@ class IcpMethod : public Registration {
  protected:
   void prepareTarget(const PointCloud& target) override {
     const Points points = parameters_.filterTarget(target.points);
-    requirePoints(points, kMinPoints, "target");
+    requirePoints(points, kMinIcpPoints, "target");
     tree_.emplace(points);
     icp_ = std::make_unique<PclIcp>(parameters_, *tree_, toPcl(points));
   }
 
   RegistrationResult alignSource(const PointCloud& source, const Transform& guess) override {
     const Points points = parameters_.filterSource(source.points);
-    requirePoints(points, kMinPoints, "source");
+    requirePoints(points, kMinIcpPoints, "source");
     return icp_->run(points, guess);
   }
 

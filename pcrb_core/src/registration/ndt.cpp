@@ -18,7 +18,7 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr std::size_t kMinPoints = 10;
+constexpr std::size_t kMinNdtPoints = 10;
 
 struct NdtParameters {
   explicit NdtParameters(ParameterReader& reader)
@@ -140,7 +140,7 @@ class Ndt : public Registration {
 
  protected:
   void prepareTarget(const PointCloud& target) override {
-    requirePoints(target.points, kMinPoints, "target");
+    requirePoints(target.points, kMinNdtPoints, "target");
     ndt_ = std::make_unique<PclNdt>(parameters_, target.points);
   }
 
@@ -148,7 +148,7 @@ class Ndt : public Registration {
     const Points points = parameters_.filter_source
                               ? voxelGrid(source.points, parameters_.voxel_leaf)
                               : source.points;
-    requirePoints(points, kMinPoints, "source");
+    requirePoints(points, kMinNdtPoints, "source");
     return ndt_->run(points, guess);
   }
 
