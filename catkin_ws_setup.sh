@@ -23,7 +23,7 @@ needed_debian_packages=(
   python3-sensor-msgs python3-std-msgs python3-std-srvs python3-tf2-msgs python3-tf2-ros
   python3-visualization-msgs python3-yaml
   libarchive-dev libbenchmark-dev libboost-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
-  libnanoflann-dev libpcl-dev libpng-dev libsodium-dev libsqlite3-dev libtinyxml2-dev libyaml-cpp-dev
+  liblzf-dev libnanoflann-dev libpcl-dev libpng-dev libsodium-dev libsqlite3-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev pybind11-dev
 )
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci

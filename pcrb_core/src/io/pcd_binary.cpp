@@ -1,11 +1,12 @@
+#include <lzf.h>
+
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string_view>
 
-#include "lzf.hpp"
-#include "pcd_data.hpp"
+#include "pcd_header.hpp"
 
 namespace pcrb {
 namespace {
@@ -14,6 +15,9 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "PCD data is little-end
 
 /// Old versions of PCL filled files up with zeros, by less than a page.
 constexpr std::size_t kLargestFill = 4096;
+
+/// Most bytes that one byte of LZF data can stand for: 264 from 3.
+constexpr std::size_t kLzfLargestRatio = 88;
 
 template <typename Number>
 double load(const char* bytes) {
@@ -117,6 +121,13 @@ void collectFields(const PcdHeader& header, const LineReader& lines, std::string
     if (with_padding || !field.isPadding()) first += header.points * field.bytes();
   }
   collect(header, columns, cloud);
+}
+
+/// Decodes LZF data of exactly `size` bytes into `values`; whether it is well-formed and that long.
+bool decodeLzf(std::string_view data, char* values, std::size_t size) {
+  if (data.empty()) return size == 0;  // the library reads one byte in any case
+  return lzf_decompress(data.data(), static_cast<unsigned>(data.size()), values,
+                        static_cast<unsigned>(size)) == size;
 }
 
 }  // namespace

@@ -289,6 +289,26 @@ TEST(PcdDefect, RejectsBrokenCompressedData) {
             "a.pcd:10: found 7 bytes of data, expected 8 bytes with two sizes");
 }
 
+TEST(PcdDefect, RejectsCompressedDataThatReadsOrWritesOutside) {
+  const auto is_broken = [](const std::string& lzf, unsigned char uncompressed) {
+    const std::string message = errorAfter([&](PcdText& pcd) {
+      pcd.data = "binary_compressed";
+      pcd.body = std::string{static_cast<char>(lzf.size()), 0, 0, 0} +
+                 std::string{static_cast<char>(uncompressed), 0, 0, 0} + lzf;
+    });
+    return message.find("broken LZF data") != std::string::npos;
+  };
+  EXPECT_FALSE(is_broken(std::string("\0a\x60\0", 4), 6));    // a literal and a copy
+  EXPECT_TRUE(is_broken(std::string("\x02") + "ab", 3));      // literal cut off
+  EXPECT_TRUE(is_broken(std::string("\x02") + "abc", 2));     // literal too long
+  EXPECT_TRUE(is_broken(std::string("\0a\x20", 3), 4));       // copy cut off
+  EXPECT_TRUE(is_broken(std::string("\0a\xe0", 3), 10));      // length cut off
+  EXPECT_TRUE(is_broken(std::string("\0a\xe0\x01", 4), 11));  // distance cut off
+  EXPECT_TRUE(is_broken(std::string("\0a\x20\x01", 4), 4));   // from before the start
+  EXPECT_TRUE(is_broken(std::string("\0a\x20\0", 4), 3));     // copy too long
+  EXPECT_TRUE(is_broken(std::string("\0a", 2), 2));           // too little
+}
+
 TEST(PcdDefect, RejectsLessThanOneThread) {
   EXPECT_THROW(pcrb_test::parsePcd(PcdText().text(), 0), InvalidParameter);
 }
