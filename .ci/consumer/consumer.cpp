@@ -1,9 +1,9 @@
+#include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
 #include <cmath>
 
-#include "pcrb_core/evaluation/homologous_error.hpp"
-#include "pcrb_core/evaluation/pcl_error.hpp"
+#include "pcrb_core/evaluation/correspondence_error.hpp"
 #include "pcrb_core/transform.hpp"
 
 int main() {

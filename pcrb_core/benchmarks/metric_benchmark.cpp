@@ -43,7 +43,7 @@ const pcl::PointCloud<pcl::PointXYZ>& pclSource() {
   return cloud;
 }
 
-/// Equation 1 on two homologous clouds.
+/// Equation 1 on two corresponding clouds.
 double pclError(const pcl::PointCloud<pcl::PointXYZ>& moved,
                 const pcl::PointCloud<pcl::PointXYZ>& truth) {
   pcl::PointXYZ centroid;

@@ -8,7 +8,7 @@
 
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 
 namespace pcrb_benchmark {
 

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/homologous_error.hpp"
+#include "pcrb_core/evaluation/correspondence_error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 
 namespace py = pybind11;
 

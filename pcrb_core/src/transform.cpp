@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "double_double.hpp"
+#include "arithmetic.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb {

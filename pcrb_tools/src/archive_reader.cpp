@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/cloud_files.hpp"
+#include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/dataset_check.hpp"
 #include "pcrb_tools/interruption.hpp"
 #include "pcrb_tools/progress.hpp"

@@ -8,7 +8,7 @@
 #include "pcrb_core/datasets/kaist.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/cloud_files.hpp"
+#include "pcrb_core/io/pcd.hpp"
 #include "pcrb_tools/archive_reader.hpp"
 #include "pcrb_tools/preparation.hpp"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/answer.hpp"
+#include "pcrb_core/evaluation/result.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/evaluation/summary.hpp"
 #include "pcrb_core/io/atomic_file.hpp"

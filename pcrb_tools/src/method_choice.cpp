@@ -6,7 +6,7 @@
 #include <ros/param.h>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/file_hash.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/registration/registry.hpp"
 
 namespace pcrb_tools {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/cloud_files.hpp"
+#include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/dataset.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_tools/check_tool.hpp"

@@ -6,7 +6,6 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_core/io/file_hash.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/cloud_files.hpp"
+#include "pcrb_core/io/pcd.hpp"
 
 namespace pcrb_tools {
 

@@ -9,9 +9,9 @@
 
 #include "ground_truth/pair_file.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/ground_truth.hpp"
+#include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_tools/conversion/eth_conversion.hpp"
 #include "report/ground_truth.hpp"
 #include "sample_log_support.hpp"

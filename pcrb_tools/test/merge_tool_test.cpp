@@ -6,7 +6,7 @@
 #include <map>
 
 #include "evaluation/some_results.hpp"
-#include "pcrb_core/evaluation/answer.hpp"
+#include "pcrb_core/evaluation/result.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

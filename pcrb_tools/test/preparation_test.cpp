@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"
 #include "support/temporary_folder.hpp"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "pcrb_core/io/file_hash.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "support/report_fixture.hpp"
 

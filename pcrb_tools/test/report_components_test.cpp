@@ -9,7 +9,7 @@
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/random.hpp"
 #include "report/problem_details.hpp"
 #include "support/expect_error.hpp"

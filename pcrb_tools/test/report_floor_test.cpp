@@ -6,7 +6,7 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "support/report_fixture.hpp"
 
 namespace pcrb_tools {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "support/report_fixture.hpp"
 #include "support/shared_data.hpp"
 

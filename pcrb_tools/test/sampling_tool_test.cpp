@@ -12,7 +12,7 @@
 #include "pcrb_core/problem/overlap_matrix.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/random.hpp"
 #include "support/temporary_folder.hpp"
 

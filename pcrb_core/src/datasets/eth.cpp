@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "datasets/pose_rows.hpp"
+#include "datasets/log_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 

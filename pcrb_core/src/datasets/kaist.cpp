@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "datasets/pose_rows.hpp"
+#include "datasets/log_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 
@@ -122,8 +122,8 @@ Stamp closestStamp(const std::vector<Stamp>& stamps, Stamp stamp) {
   return stamp - *previous <= *next - stamp ? *previous : *next;
 }
 
-PoseAnswer kaistPose(const Trajectory& trajectory, Stamp stamp, const KaistOptions& options) {
-  PoseAnswer answer = options.interpolate ? trajectory.interpolate(stamp, options.max_pose_gap)
+PoseLookup kaistPose(const Trajectory& trajectory, Stamp stamp, const KaistOptions& options) {
+  PoseLookup answer = options.interpolate ? trajectory.interpolate(stamp, options.max_pose_gap)
                                           : trajectory.nearest(stamp, options.max_pose_gap);
   answer.T_world_body.translation() += options.frame_offset;
   return answer;

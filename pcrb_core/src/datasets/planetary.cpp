@@ -1,6 +1,6 @@
 #include "pcrb_core/datasets/planetary.hpp"
 
-#include "datasets/pose_rows.hpp"
+#include "datasets/log_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 

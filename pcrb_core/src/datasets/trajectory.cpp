@@ -48,7 +48,7 @@ Trajectory::Trajectory(std::vector<StampedPose> poses) : poses_(std::move(poses)
   poses_.erase(end, poses_.end());
 }
 
-PoseAnswer Trajectory::interpolate(Stamp stamp, Stamp max_gap) const {
+PoseLookup Trajectory::interpolate(Stamp stamp, Stamp max_gap) const {
   if (stamp < firstStamp()) return {PoseStatus::kBeforeFirst, {}};
   if (stamp > lastStamp()) return {PoseStatus::kAfterLast, {}};
   const auto next = std::lower_bound(poses_.begin(), poses_.end(), stamp, earlier);
@@ -66,7 +66,7 @@ const StampedPose& Trajectory::nearest(Stamp stamp) const {
   return stamp - previous->stamp <= next->stamp - stamp ? *previous : *next;
 }
 
-PoseAnswer Trajectory::nearest(Stamp stamp, Stamp max_distance) const {
+PoseLookup Trajectory::nearest(Stamp stamp, Stamp max_distance) const {
   if (stamp < firstStamp()) return {PoseStatus::kBeforeFirst, {}};
   if (stamp > lastStamp() && stamp - lastStamp() > max_distance) {
     return {PoseStatus::kAfterLast, {}};

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "datasets/number_rows.hpp"
+#include "datasets/log_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 

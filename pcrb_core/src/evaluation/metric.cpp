@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "double_double.hpp"
+#include "arithmetic.hpp"
 #include "evaluation/metric_kernel.hpp"
 #include "pcrb_core/error.hpp"
 
@@ -120,6 +120,22 @@ double Metric::unnormalized(const Transform& T_residual) const {
     sum += sumOfNorms(points, weights.data(), displacement);
   }
   return unscaled(sum / static_cast<double>(size_), exponent);
+}
+
+PoseComponents poseComponents(const Transform& T_residual, const Eigen::Vector3d& centroid) {
+  const Eigen::Matrix3d R = T_residual.linear();
+  PoseComponents components;
+  components.translation = T_residual * centroid - centroid;
+  const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
+  components.pitch = std::atan2(-R(2, 0), cos_pitch);
+  constexpr double kVertical = 1e-12;  // cos of a pitch at which roll and yaw turn about one axis
+  if (cos_pitch < kVertical) {
+    components.yaw = std::atan2(-R(0, 1), R(1, 1));
+  } else {
+    components.roll = std::atan2(R(2, 1), R(2, 2));
+    components.yaw = std::atan2(R(1, 0), R(0, 0));
+  }
+  return components;
 }
 
 }  // namespace pcrb

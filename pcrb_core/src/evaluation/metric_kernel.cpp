@@ -1,6 +1,6 @@
 #include "evaluation/metric_kernel.hpp"
 
-#include "target_clones.hpp"
+#include "arithmetic.hpp"
 
 namespace pcrb {
 

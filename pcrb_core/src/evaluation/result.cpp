@@ -47,4 +47,9 @@ bool ProblemKey::operator==(const ProblemKey& other) const {
   return fields(*this) == fields(other);
 }
 
+bool isAnswered(const Result& result) {
+  return result.outcome == Outcome::kReplied ||
+         (result.outcome == Outcome::kFailed && result.reason != kNodeLeft);
+}
+
 }  // namespace pcrb

@@ -6,7 +6,7 @@
 
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/printable_text.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 

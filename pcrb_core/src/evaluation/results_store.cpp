@@ -9,10 +9,8 @@
 #include "evaluation/sqlite.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
-#include "pcrb_core/io/csv.hpp"
-#include "pcrb_core/io/file_lock.hpp"
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/printable_text.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/text_table.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {

@@ -4,7 +4,7 @@
 #include <future>
 #include <string_view>
 
-#include "pcd_data.hpp"
+#include "pcd_header.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
+#include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/transform.hpp"
 
 namespace pcrb {
@@ -38,5 +39,13 @@ struct PcdHeader {
 /// Entries in any order, DATA last; VERSION, COUNT and VIEWPOINT may be missing.
 /// @throws InvalidFile  with the line, what was found and what was expected.
 PcdHeader readPcdHeader(LineReader& lines);
+
+// Readers of what follows a PCD header. `lines` stands behind the DATA entry; they fill points,
+// intensity and dropped_non_finite, and throw InvalidFile.
+
+void readPcdAscii(const PcdHeader& header, const LineReader& lines, int threads,
+                  DatasetCloud& cloud);
+void readPcdBinary(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud);
+void readPcdCompressed(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud);
 
 }  // namespace pcrb

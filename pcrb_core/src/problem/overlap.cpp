@@ -14,7 +14,7 @@
 namespace pcrb {
 namespace {
 
-double fraction(std::size_t count, std::size_t size) {
+double shareOf(std::size_t count, std::size_t size) {
   return static_cast<double>(count) / static_cast<double>(size);
 }
 
@@ -80,7 +80,7 @@ std::vector<double> computeColumn(const OverlapJob& job, const HeldClouds& cloud
   const Coverage coverage(clouds[target]);
   const Span sources = sourcesOf(job, target);
   for (std::size_t i = sources.first; i < sources.end; ++i) {
-    column[i] = i == target ? 1.0 : fraction(coverage.count(clouds[i]), clouds[i].size());
+    column[i] = i == target ? 1.0 : shareOf(coverage.count(clouds[i]), clouds[i].size());
   }
   return column;
 }
@@ -100,7 +100,7 @@ double computeOverlap(const DatasetCloud& source, const DatasetCloud& target, do
   if (source.points.empty()) throw InvalidProblem("source cloud has no points");
   const CellGrid source_grid(source.points, source.points.front(), distance);
   const CellGrid target_grid(target.points, source.points.front(), distance);
-  return fraction(Coverage(target_grid).count(source_grid), source.points.size());
+  return shareOf(Coverage(target_grid).count(source_grid), source.points.size());
 }
 
 std::size_t countPairs(const OverlapJob& job) {

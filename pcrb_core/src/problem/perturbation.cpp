@@ -1,8 +1,10 @@
 #include "pcrb_core/problem/perturbation.hpp"
 
+#include <cmath>
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/problem/problem.hpp"
 
 namespace pcrb {
 namespace {
@@ -38,6 +40,67 @@ void checkFrame(const Transform& P, const Eigen::Vector3d& source_centroid,
           << " m: the clouds are in another frame than the problem file's (check_dataset estimates "
              "the offset between the two)";
   throw InvalidProblem(message.str());
+}
+
+namespace {
+
+constexpr std::size_t kLocalPerturbations = 30;
+/// A pair's share of the ids: those of its local problems and one for a global one.
+constexpr std::size_t kIdsPerPair = kLocalPerturbations + 1;
+constexpr double kDegree = M_PI / 180.0;
+
+std::size_t idIndex(Kind kind, std::size_t pair, std::size_t perturbation) {
+  return kIdsPerPair * pair + (kind == Kind::kLocal ? perturbation : kLocalPerturbations);
+}
+
+/// The finalizer of SplitMix64: a bijection that spreads every bit over all.
+std::uint64_t mixed(std::uint64_t bits) {
+  bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9ULL;
+  bits = (bits ^ bits >> 27) * 0x94d049bb133111ebULL;
+  return bits ^ bits >> 31;
+}
+
+}  // namespace
+
+std::size_t perturbationsPerPair(Kind kind) {
+  return kind == Kind::kLocal ? kLocalPerturbations : 1;
+}
+
+Transform samplePerturbation(const Eigen::Vector3d& source_centroid,
+                             const PerturbationBounds& bounds, Random& random) {
+  const Eigen::Vector3d direction = random.direction();
+  const double distance = random.uniform(bounds.translation.min, bounds.translation.max);
+  const Eigen::Vector3d axis = random.direction();
+  const double angle = random.uniform(bounds.rotation_deg.min, bounds.rotation_deg.max) * kDegree;
+  return makePerturbation(source_centroid, distance * direction,
+                          Eigen::AngleAxisd(angle, axis).toRotationMatrix());
+}
+
+std::uint64_t streamSeed(std::uint64_t seed, const std::string& purpose) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
+  for (const char c : purpose) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return mixed(hash + mixed(seed));
+}
+
+std::vector<Problem> sampleProblems(
+    const ProblemList& list, std::uint64_t seed,
+    const std::function<Eigen::Vector3d(const std::string& source)>& centroid) {
+  Random random(streamSeed(seed, list.sequence + " " + toString(list.kind) + " perturbations"));
+  std::vector<Problem> problems;
+  for (std::size_t k = 0; k < list.pairs.size(); ++k) {
+    const CloudPair& pair = list.pairs[k];
+    const Eigen::Vector3d center = centroid(pair.source);
+    for (std::size_t j = 0; j < perturbationsPerPair(list.kind); ++j) {
+      Problem problem;
+      problem.id = problemId(list.sequence, idIndex(list.kind, k, j), list.pairs.size());
+      problem.source = pair.source;
+      problem.target = pair.target;
+      problem.overlap = pair.overlap;
+      problem.perturbation = samplePerturbation(center, list.bounds, random).matrix().topRows<3>();
+      problems.push_back(problem);
+    }
+  }
+  return problems;
 }
 
 }  // namespace pcrb

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/problem/perturbation_sampling.hpp"
+#include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/random.hpp"
 
 namespace pcrb {

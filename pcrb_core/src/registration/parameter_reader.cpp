@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/parallel.hpp"
 
 namespace pcrb {

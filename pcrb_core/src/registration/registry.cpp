@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {

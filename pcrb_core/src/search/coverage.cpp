@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "pcrb_core/error.hpp"
-#include "search/stamp.hpp"
+#include "search/footprint.hpp"
 
 namespace pcrb {
 namespace {
 
-/// Cells with more points than this get one stamp for the whole cell: around a scanner, points are
-/// so dense that the neighbouring cells decide anyway.
-constexpr std::uint32_t kMaxStampsPerCell = 3;
+/// Cells with more points than this get one footprint for the whole cell: around a scanner, points
+/// are so dense that the neighbouring cells decide anyway.
+constexpr std::uint32_t kMaxFootprintsPerCell = 3;
 
 /// Half a block and the error of coordinates in cells.
 constexpr double kHalfBlock = kCellsPerBlock / 2;
@@ -77,8 +77,8 @@ int subcell(double coordinate) {
 
 }  // namespace
 
-/// The cells of 3 × 3 × 3 blocks as rows of bits along x, on which the stamps of the middle block's
-/// points are put before they are merged into the blocks.
+/// The cells of 3 × 3 × 3 blocks as rows of bits along x, on which the footprints of the middle
+/// block's points are put before they are merged into the blocks.
 class Coverage::Canvas {
  public:
   void clear() {
@@ -88,19 +88,19 @@ class Coverage::Canvas {
     high_ = 0;
   }
 
-  /// Puts a stamp for a cell of the middle block.
-  void put(const Stamp& stamp, std::uint16_t cell) {
+  /// Puts a footprint for a cell of the middle block.
+  void put(const Footprint& footprint, std::uint16_t cell) {
     const std::size_t first_x = kFirst + (cell & 7);
     const std::size_t first_y = kFirst + (cell >> 3 & 7);
     const std::size_t first_z = kFirst + (cell >> 6);
     low_ = std::min(low_, first_z);
-    high_ = std::max(high_, first_z + Stamp::kRows);
-    for (std::size_t z = 0; z < Stamp::kRows; ++z) {
+    high_ = std::max(high_, first_z + Footprint::kRows);
+    for (std::size_t z = 0; z < Footprint::kRows; ++z) {
       Row* certain = certain_[first_z + z].data() + first_y;
       Row* possible = possible_[first_z + z].data() + first_y;
-      for (std::size_t y = 0; y < Stamp::kRows + 1; ++y) {
-        certain[y] |= stamp.certain[z][y] << first_x;
-        possible[y] |= stamp.possible[z][y] << first_x;
+      for (std::size_t y = 0; y < Footprint::kRows + 1; ++y) {
+        certain[y] |= footprint.certain[z][y] << first_x;
+        possible[y] |= footprint.possible[z][y] << first_x;
       }
     }
   }
@@ -167,13 +167,13 @@ Coverage::Coverage(const CellGrid& target) : target_(target), table_(2 * target.
     for (std::size_t c = target.block(b).first_cell; c < target.block(b + 1).first_cell; ++c) {
       const CellGrid::Cell& cell = target.cell(c);
       const std::uint32_t end = target.cell(c + 1).first_point;
-      if (end - cell.first_point > kMaxStampsPerCell) {
-        canvas.put(stampOfCell(), cell.index);
+      if (end - cell.first_point > kMaxFootprintsPerCell) {
+        canvas.put(footprintOfCell(), cell.index);
         continue;
       }
       for (std::uint32_t p = cell.first_point; p < end; ++p) {
         const Eigen::Vector3d cells = target.cellCoordinates(target.point(p), key);
-        canvas.put(stampOfSubcell(subcell(cells.x()), subcell(cells.y()), subcell(cells.z())),
+        canvas.put(footprintOfSubcell(subcell(cells.x()), subcell(cells.y()), subcell(cells.z())),
                    cell.index);
       }
     }

@@ -12,23 +12,6 @@ namespace {
 
 constexpr std::size_t kLeafSize = 10;
 
-/// nanoflann's view of the points.
-struct Points {
-  std::vector<Eigen::Vector3f> values;
-
-  std::size_t kdtree_get_point_count() const { return values.size(); }
-  float kdtree_get_pt(std::size_t index, std::size_t axis) const {
-    return values[index][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points, float>,
-                                                 Points, 3, std::uint32_t>;
-
 /// Collects the nearest points, nearest first, directly as Neighbors.
 class NearestSet {
  public:
@@ -79,6 +62,24 @@ class WithinSet {
 }  // namespace
 
 struct KdTree::Index {
+  /// nanoflann's view of the points.
+  struct Points {
+    std::vector<Eigen::Vector3f> values;
+
+    std::size_t kdtree_get_point_count() const { return values.size(); }
+    float kdtree_get_pt(std::size_t index, std::size_t axis) const {
+      return values[index][static_cast<Eigen::Index>(axis)];
+    }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+
+  using Tree =
+      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points, float>,
+                                          Points, 3, std::uint32_t>;
+
   explicit Index(std::vector<Eigen::Vector3f> values)
       : points{std::move(values)},
         tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}

@@ -23,7 +23,7 @@ double yawOf(const Transform& T) { return std::atan2(T.linear()(1, 0), T.linear(
 
 TEST(Trajectory, InterpolatesTranslationLinearlyAndRotationAlongTheArc) {
   const Trajectory trajectory({pose(10.0, 1.0, 0.2), pose(10.1, 2.0, 0.6)});
-  const PoseAnswer answer = trajectory.interpolate(toStamp(10.025), kSecond);
+  const PoseLookup answer = trajectory.interpolate(toStamp(10.025), kSecond);
   ASSERT_EQ(answer.status, PoseStatus::kFound);
   EXPECT_NEAR(answer.T_world_body.translation().x(), 1.25, 1e-12);
   EXPECT_NEAR(yawOf(answer.T_world_body), 0.3, 1e-12);
@@ -31,7 +31,7 @@ TEST(Trajectory, InterpolatesTranslationLinearlyAndRotationAlongTheArc) {
 
 TEST(Trajectory, InterpolatesTheShortWayAroundPi) {
   const Trajectory trajectory({pose(1.0, 0.0, 3.1), pose(2.0, 0.0, -3.1)});
-  const PoseAnswer answer = trajectory.interpolate(toStamp(1.5), kSecond);
+  const PoseLookup answer = trajectory.interpolate(toStamp(1.5), kSecond);
   EXPECT_NEAR(std::abs(yawOf(answer.T_world_body)), M_PI, 1e-9);
 }
 
@@ -46,7 +46,7 @@ TEST(Trajectory, RefusesGapsBeyondTheLimitAndTimesOutside) {
 
 TEST(Trajectory, APoseAtTheVeryStampIsFoundAtTheEdgeOfAGap) {
   const Trajectory trajectory({pose(1.0, 5.0, 0.0), pose(13.0, 7.0, 0.0)});
-  const PoseAnswer answer = trajectory.interpolate(toStamp(13.0), kMillisecond);
+  const PoseLookup answer = trajectory.interpolate(toStamp(13.0), kMillisecond);
   ASSERT_EQ(answer.status, PoseStatus::kFound);
   EXPECT_EQ(answer.T_world_body.translation().x(), 7.0);
 }

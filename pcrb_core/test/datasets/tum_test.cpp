@@ -36,7 +36,7 @@ TEST(TumTrajectory, ReadsPosesWithExactStampsAndNormalisedRotations) {
 TEST(TumTrajectory, AQuaternionThatFlipsItsSignIsNoTurn) {
   const Trajectory trajectory = parseTumTrajectory(kTrajectory, "gt.txt");
   const Transform first = trajectory.nearest(0).T_world_body;
-  const PoseAnswer middle = trajectory.interpolate(trajectory.firstStamp() + 1700000, kSecond / 10);
+  const PoseLookup middle = trajectory.interpolate(trajectory.firstStamp() + 1700000, kSecond / 10);
   ASSERT_EQ(middle.status, PoseStatus::kFound);
   EXPECT_LT(rotationAngle(first.linear().transpose() * middle.T_world_body.linear()), 1e-9);
   EXPECT_NEAR(middle.T_world_body.translation().x(), -0.1358, 1e-9);
@@ -74,8 +74,8 @@ TEST(TumTrajectory, RealFileHasADuplicateStampAndAGapOfTwelveSeconds) {
   EXPECT_EQ(trajectory.interpolate(in_gap, 13 * kSecond).status, PoseStatus::kFound);
   // Nowhere does a sign flip make a turn: within 20 ms the camera turns by less than 3 degrees.
   for (Stamp stamp = trajectory.firstStamp(); stamp < in_gap - 20 * kSecond; stamp += 20000000) {
-    const PoseAnswer a = trajectory.interpolate(stamp, kSecond);
-    const PoseAnswer b = trajectory.interpolate(stamp + 20000000, kSecond);
+    const PoseLookup a = trajectory.interpolate(stamp, kSecond);
+    const PoseLookup b = trajectory.interpolate(stamp + 20000000, kSecond);
     if (a.status != PoseStatus::kFound || b.status != PoseStatus::kFound) continue;
     ASSERT_LT(rotationAngle(a.T_world_body.linear().transpose() * b.T_world_body.linear()), 0.05)
         << stamp;

@@ -1,13 +1,12 @@
+#include "pcrb_core/evaluation/distributions.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/binned_quantiles.hpp"
-#include "pcrb_core/evaluation/histogram.hpp"
-#include "pcrb_core/evaluation/pose_components.hpp"
-#include "pcrb_core/evaluation/success.hpp"
+#include "pcrb_core/evaluation/metric.hpp"
 
 namespace pcrb {
 namespace {
@@ -52,10 +51,10 @@ TEST(BinnedQuantiles, KeepEqualValuesTogetherAndHaveNoEmptyBin) {
 }
 
 TEST(FractionSolved, CountsAnsweredProblemsOutOfAll) {
-  const std::vector<Attempt> attempts{{true, 0.1, 0.0, 0.0},
-                                      {true, 0.3, 0.0, 0.0},
-                                      {false, 0.05, 0.0, 0.0},  // unanswered: not solved
-                                      {true, 2.0, 0.0, 0.0}};
+  const std::vector<ProblemOutcome> attempts{{true, 0.1, 0.0, 0.0},
+                                             {true, 0.3, 0.0, 0.0},
+                                             {false, 0.05, 0.0, 0.0},  // unanswered: not solved
+                                             {true, 2.0, 0.0, 0.0}};
   EXPECT_EQ(fractionSolved(attempts, {0.01, 0.1, 0.5, 5.0}),
             (std::vector<double>{0.0, 0.25, 0.5, 0.75}));
   EXPECT_TRUE(std::isnan(fractionSolved({}, {1.0})[0]));
@@ -63,10 +62,10 @@ TEST(FractionSolved, CountsAnsweredProblemsOutOfAll) {
 }
 
 TEST(RegistrationRecall, NeedsBothErrorsWithinTheirLimits) {
-  const std::vector<Attempt> attempts{{true, 0.1, 0.01, 0.1},
-                                      {true, 0.1, 0.01, 0.5},
-                                      {true, 0.1, 0.20, 0.1},
-                                      {false, 0.1, 0.0, 0.0}};
+  const std::vector<ProblemOutcome> attempts{{true, 0.1, 0.01, 0.1},
+                                             {true, 0.1, 0.01, 0.5},
+                                             {true, 0.1, 0.20, 0.1},
+                                             {false, 0.1, 0.0, 0.0}};
   EXPECT_EQ(registrationRecall(attempts, 0.1, 0.01), 0.25);
   EXPECT_EQ(registrationRecall(attempts, 0.5, 0.01), 0.5);
   EXPECT_EQ(registrationRecall(attempts, 1.0, 1.0), 0.75);

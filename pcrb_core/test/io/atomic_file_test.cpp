@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -110,6 +111,24 @@ TEST(AtomicFile, GetsTheModeThatTheUmaskGives) {
   writeFileAtomically(folder.file("a"), "");
   umask(before);
   EXPECT_EQ(fs::status(folder.file("a")).permissions(), static_cast<fs::perms>(0644));
+}
+
+TEST(FileLock, IsHeldByOneAtATimeAndNamesItToOthers) {
+  const pcrb_test::TemporaryFolder folder;
+  const std::string path = folder.file("a.lock");
+  {
+    const FileLock first(path);
+    EXPECT_TRUE(first.isHeld());
+    EXPECT_EQ(first.holder(), "");
+    const FileLock second(path);
+    EXPECT_FALSE(second.isHeld());
+    EXPECT_EQ(second.holder().find("process " + std::to_string(getpid()) + " on "), 0U);
+  }
+  EXPECT_TRUE(FileLock(path).isHeld());
+}
+
+TEST(FileLock, RefusesAFileThatCannotBeMade) {
+  EXPECT_THROW(FileLock("/no/such/folder/a.lock"), InvalidFile);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/frame_offset.hpp"
 #include "pcrb_core/problem/overlap.hpp"
-#include "pcrb_core/problem/perturbation_sampling.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/perturbation.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/problem/perturbation_sampling.hpp"
+#include "pcrb_core/problem/perturbation.hpp"
 
 namespace pcrb {
 namespace {

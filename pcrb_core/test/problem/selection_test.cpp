@@ -8,7 +8,7 @@
 #include <set>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/random.hpp"
 #include "support/shared_data.hpp"
 

@@ -10,7 +10,7 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/dataset.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/registration/registration.hpp"
 #include "support/scenes.hpp"
 #include "support/shared_data.hpp"

@@ -9,7 +9,7 @@
 #include "bridge/body_frame.hpp"
 #include "bridge/empty_call.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/answer.hpp"
+#include "pcrb_core/evaluation/result.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {

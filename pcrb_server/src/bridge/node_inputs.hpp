@@ -11,7 +11,7 @@
 #include <string>
 
 #include "bridge/bridge_parameters.hpp"
-#include "pcrb_core/io/file_lock.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/transform.hpp"
 #include "subscriber_names.hpp"

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/cloud_files.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/dataset.hpp"
 #include "pcrb_server/message_conversion.hpp"

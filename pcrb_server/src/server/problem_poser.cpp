@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/file_hash.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
 

@@ -4,9 +4,8 @@
 #include <set>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/file_hash.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
-#include "pcrb_core/problem/problem_origin.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/problem/selection.hpp"
 
 namespace pcrb {

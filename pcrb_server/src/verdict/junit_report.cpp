@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/printable_text.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 

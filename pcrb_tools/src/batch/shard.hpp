@@ -10,7 +10,7 @@
 #include "batch/child_process.hpp"
 #include "batch/reserved_port.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
-#include "pcrb_core/io/file_lock.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace pcrb_tools {

@@ -12,11 +12,10 @@
 
 #include "file_identity.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/cloud_files.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
 
 namespace pcrb_tools {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_tools/interruption.hpp"
 
 namespace pcrb_tools {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pcrb_core/datasets/kaist.hpp"
-#include "pcrb_core/datasets/stream_clock.hpp"
+#include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_tools/conversion/kaist_conversion.hpp"
 #include "pcrb_tools/conversion/log_files.hpp"

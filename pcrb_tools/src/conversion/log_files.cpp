@@ -8,7 +8,7 @@
 
 #include "file_identity.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/cloud_files.hpp"
+#include "pcrb_core/io/pcd.hpp"
 #include "pcrb_tools/archive_reader.hpp"
 
 namespace pcrb_tools {

@@ -19,7 +19,7 @@ std::optional<pcrb::Transform> TumGate::admit(pcrb::Stamp stamp) {
     return std::nullopt;
   };
   if (clock_.goesBack(stamp)) conversion_.noteGoingBack();
-  const pcrb::PoseAnswer answer = poseAt(stamp);
+  const pcrb::PoseLookup answer = poseAt(stamp);
   if (answer.status != pcrb::PoseStatus::kFound) return drop(pcrb::toString(answer.status));
   const bool is_due = limiter_.keep(stamp);  // asked of a repetition, too: it has its place in time
   if (admitted_.count(stamp) > 0) return drop("the stamp of an earlier one");
@@ -28,7 +28,7 @@ std::optional<pcrb::Transform> TumGate::admit(pcrb::Stamp stamp) {
   return answer.T_world_body;
 }
 
-pcrb::PoseAnswer TumGate::poseAt(pcrb::Stamp stamp) const {
+pcrb::PoseLookup TumGate::poseAt(pcrb::Stamp stamp) const {
   if (!options_.nearest) return trajectory_.interpolate(stamp, options_.max_gap);
   return {pcrb::PoseStatus::kFound, trajectory_.nearest(stamp).T_world_body};
 }

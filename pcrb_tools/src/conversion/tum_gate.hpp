@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "pcrb_core/datasets/stream_clock.hpp"
+#include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_tools/conversion/tum_conversion.hpp"
 
@@ -27,7 +27,7 @@ class TumGate {
   static std::string cloudName(pcrb::Stamp stamp) { return pcrb::formatStamp(stamp) + ".pcd"; }
 
  private:
-  pcrb::PoseAnswer poseAt(pcrb::Stamp stamp) const;
+  pcrb::PoseLookup poseAt(pcrb::Stamp stamp) const;
 
   const pcrb::Trajectory& trajectory_;
   const TumOptions& options_;

@@ -7,8 +7,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_core/io/file_hash.hpp"
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
 namespace {

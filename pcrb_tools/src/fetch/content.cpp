@@ -6,7 +6,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_tools/archive_reader.hpp"
 
 namespace pcrb_tools {

@@ -8,7 +8,7 @@
 
 #include "confirmation.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "transfer.hpp"
 
 namespace pcrb_tools {

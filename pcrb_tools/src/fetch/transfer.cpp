@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "response.hpp"
 
 namespace pcrb_tools {

@@ -11,7 +11,7 @@
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/dataset.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_tools/interruption.hpp"
 #include "pcrb_tools/progress.hpp"
 #include "pcrb_tools/provenance.hpp"

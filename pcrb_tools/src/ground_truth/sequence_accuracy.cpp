@@ -3,7 +3,7 @@
 #include <map>
 
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/text_table.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ground_truth/pair_file.hpp"
-#include "pcrb_core/evaluation/ground_truth.hpp"
+#include "pcrb_core/evaluation/statistics.hpp"
 
 namespace pcrb_tools {
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "pcrb_core/evaluation/binned_quantiles.hpp"
-#include "pcrb_core/evaluation/histogram.hpp"
+#include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "report/attempts.hpp"
 

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "pcrb_core/evaluation/correlation.hpp"
-#include "pcrb_core/evaluation/paired_test.hpp"
+#include "pcrb_core/evaluation/rank_tests.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "report/published.hpp"
 

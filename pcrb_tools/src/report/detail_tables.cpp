@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
-#include "pcrb_core/evaluation/success.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "report/attempts.hpp"
 

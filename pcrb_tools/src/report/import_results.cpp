@@ -6,11 +6,9 @@
 #include <functional>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/printable_text.hpp"
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "pcrb_core/io/file_hash.hpp"
-#include "pcrb_core/problem/problem_origin.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "report/catalog.hpp"
 
 namespace pcrb_tools {

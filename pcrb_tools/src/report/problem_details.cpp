@@ -4,11 +4,10 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
-#include "pcrb_core/evaluation/pose_components.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/parallel.hpp"
 #include "pcrb_core/problem/presentation.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/problem/secret.hpp"
 
 namespace pcrb_tools {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "pcrb_core/evaluation/bootstrap.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "report/own_problems.hpp"
 #include "report/published.hpp"

@@ -1,7 +1,7 @@
 #include "report/scored_problem.hpp"
 
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/problem/problem.hpp"
 
 namespace pcrb_tools {
 namespace {

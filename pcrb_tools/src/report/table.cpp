@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
 namespace {

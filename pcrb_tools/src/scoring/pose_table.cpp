@@ -4,7 +4,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/text_rows.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "scoring/recorded_poses.hpp"
 

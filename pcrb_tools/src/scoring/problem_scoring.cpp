@@ -5,8 +5,8 @@
 
 #include "bags/problem_key.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/file_hash.hpp"
-#include "pcrb_core/problem/problem_file.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/problem/problem.hpp"
 #include "pcrb_server/offline_run.hpp"
 #include "pcrb_tools/problem_file_path.hpp"
 #include "pcrb_tools/progress.hpp"

@@ -44,7 +44,7 @@ struct KaistOptions {
 };
 
 /// T_world_vehicle for a scan, frame offset included.
-PoseAnswer kaistPose(const Trajectory& trajectory, Stamp stamp, const KaistOptions& options);
+PoseLookup kaistPose(const Trajectory& trajectory, Stamp stamp, const KaistOptions& options);
 
 /// A scan and the poses that place it.
 struct PlacedScan {

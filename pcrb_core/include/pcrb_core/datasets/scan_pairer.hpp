@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "pcrb_core/datasets/stamp.hpp"
-#include "pcrb_core/datasets/stream_clock.hpp"
 
 namespace pcrb {
 

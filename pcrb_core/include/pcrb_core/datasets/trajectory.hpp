@@ -25,7 +25,7 @@ enum class PoseStatus {
 /// For reports: `before the first pose` and so on.
 const char* toString(PoseStatus status);
 
-struct PoseAnswer {
+struct PoseLookup {
   PoseStatus status = PoseStatus::kGap;
   Transform T_world_body = Transform::Identity();  ///< meaningful with kFound only
 };
@@ -41,14 +41,14 @@ class Trajectory {
   /// shorter arc, whatever the signs of the quaternions in the log.
   ///
   /// A stamp that a pose has gives that pose. Found only if the two are at most `max_gap` apart.
-  PoseAnswer interpolate(Stamp stamp, Stamp max_gap) const;
+  PoseLookup interpolate(Stamp stamp, Stamp max_gap) const;
 
   /// The pose closest in time, the earlier one of two at the same distance; no limit.
   const StampedPose& nearest(Stamp stamp) const;
 
   /// The same, only for times within the trajectory or up to `max_distance` after its end, and only
   /// if the pose is at most `max_distance` away.
-  PoseAnswer nearest(Stamp stamp, Stamp max_distance) const;
+  PoseLookup nearest(Stamp stamp, Stamp max_distance) const;
 
   std::size_t size() const { return poses_.size(); }
   std::size_t duplicates() const { return duplicates_; }  ///< poses left out by the constructor

@@ -53,4 +53,11 @@ struct Result {
   double finished = 0.0;                             ///< s since the epoch
 };
 
+/// Reason of a problem that localization_bridge, not the node under test, gave up as kFailed.
+inline constexpr const char* kNodeLeft = "the node under test left while it had the problem";
+
+/// Whether the node under test itself said something that could be taken: a valid reply, or that it
+/// cannot.
+bool isAnswered(const Result& result);
+
 }  // namespace pcrb

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "pcrb_core/point_cloud.hpp"
 
@@ -34,5 +35,14 @@ DatasetCloud parsePcd(const char* begin, const char* end, const std::string& nam
 /// Writes to a temporary name in the same folder, then renames. Intensity is not written.
 /// @throws InvalidFile  if the file cannot be written completely, or a point is not finite.
 void writePcd(const std::string& path, const DatasetCloud& cloud);
+
+/// Order of file names as a person counts: runs of digits compare as numbers, so `PointCloud2.pcd`
+/// comes before `PointCloud10.pcd`. Names that differ in leading zeros only compare as text.
+bool naturalLess(const std::string& left, const std::string& right);
+
+/// Names of the `.pcd` files in a folder (hidden ones left out), in natural order.
+///
+/// @throws InvalidFile  if the path is no readable folder.
+std::vector<std::string> findClouds(const std::string& folder);
 
 }  // namespace pcrb

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pcrb {
+
+/// Walks over the lines of a text in memory (LF or CRLF, final newline or not) and knows where it
+/// is.
+class LineReader {
+ public:
+  /// @param name  the file's path, for messages.
+  LineReader(std::string_view text, std::string name);
+
+  /// Takes the next line, without its end; false behind the last one.
+  bool next(std::string_view& line);
+
+  /// Number of the line taken last, from 1; 0 before the first.
+  std::size_t lineNumber() const { return line_number_; }
+
+  /// What follows the line taken last.
+  std::string_view rest() const { return rest_; }
+
+  const std::string& name() const { return name_; }
+
+  /// @throws InvalidFile  always, for the line taken last.
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
+
+ private:
+  std::string_view rest_;
+  std::string name_;
+  std::size_t line_number_ = 0;
+};
+
+/// Replaces `fields` by the parts of a line between runs of spaces and tabs.
+void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields);
+
+/// Replaces `fields` by the parts of a line between separators, blanks around them removed; an
+/// empty line is one empty field.
+void splitAt(char separator, std::string_view line, std::vector<std::string_view>& fields);
+
+/// The text without spaces and tabs at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// A text in quotes for a message: shortened to 40 bytes, what is not printable ASCII as \xNN.
+std::string inQuotes(std::string_view text);
+
+/// Appends a field of a row of comma-separated values, quoted where it must be (RFC 4180).
+void appendCsvField(std::string& line, std::string_view field);
+
+/// Takes the next row of comma-separated values (RFC 4180): a field in quotes may hold commas,
+/// doubled quotes and line ends, which come out as line feeds. Blanks around a field are removed.
+///
+/// @param fields  replaced by the row's; an empty line is one empty field.
+/// @return        false behind the last row.
+/// @throws InvalidFile  if a quote does not end, or text follows a closing quote.
+bool nextCsvRow(LineReader& lines, std::vector<std::string>& fields);
+
+using TableRow = std::vector<std::string>;
+
+/// A table for a terminal: a line per row, columns two spaces apart, each as wide as its widest
+/// entry (UTF-8 characters count as one).
+///
+/// @param rows          all of the same length, at least one.
+/// @param text_columns  so many columns at the left are aligned left, the others right.
+std::string alignColumns(const std::vector<TableRow>& rows, std::size_t text_columns);
+
+/// A stranger's text, made such that JSON and XML can hold it: each byte that is no UTF-8, each
+/// control character but tab, line feed and carriage return, and U+FFFE and U+FFFF become U+FFFD.
+std::string printableText(std::string_view text);
+
+}  // namespace pcrb

@@ -1,0 +1,194 @@
+#include "pcrb_core/io/text.hpp"
+
+#include <algorithm>
+#include <boost/locale/utf.hpp>
+#include <utility>
+
+#include "pcrb_core/error.hpp"
+
+namespace pcrb {
+namespace {
+
+constexpr const char* kBlanks = " \t";
+constexpr std::size_t kLongestQuote = 40;
+
+}  // namespace
+
+LineReader::LineReader(std::string_view text, std::string name)
+    : rest_(text), name_(std::move(name)) {}
+
+bool LineReader::next(std::string_view& line) {
+  if (rest_.empty()) return false;
+  ++line_number_;
+  const std::size_t end = rest_.find('\n');
+  line = rest_.substr(0, end);
+  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return true;
+}
+
+void LineReader::fail(const std::string& found, const std::string& expected) const {
+  throw InvalidFile(name_, line_number_, found, expected);
+}
+
+void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  std::size_t begin = line.find_first_not_of(kBlanks);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = line.find_first_of(kBlanks, begin);
+    fields.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kBlanks, end);
+  }
+}
+
+void splitAt(char separator, std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  for (;;) {
+    const std::size_t end = line.find(separator);
+    fields.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+std::string inQuotes(std::string_view text) {
+  constexpr const char* kHex = "0123456789abcdef";
+  std::string quote = "'";
+  for (const char c : text.substr(0, kLongestQuote)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) {
+      quote += c;
+    } else {
+      quote += {'\\', 'x', kHex[byte >> 4], kHex[byte & 0xf]};
+    }
+  }
+  if (text.size() > kLongestQuote) quote += "...";
+  return quote + "'";
+}
+
+namespace {
+
+/// Takes what stands before the closing quote, and that quote, off a line or several.
+std::string takeQuoted(LineReader& lines, std::string_view& line) {
+  const std::size_t opened = lines.lineNumber();
+  std::string field;
+  for (;;) {
+    const std::size_t quote = line.find('"');
+    field += line.substr(0, quote);
+    if (quote == std::string_view::npos) {
+      field += '\n';
+      if (lines.next(line)) continue;
+      lines.fail("no end of the quote that opens in line " + std::to_string(opened), "one");
+    }
+    line.remove_prefix(quote + 1);
+    if (line.empty() || line.front() != '"') return field;
+    field += '"';
+    line.remove_prefix(1);
+  }
+}
+
+/// Takes a field, not the comma behind it, off a line.
+std::string takeField(LineReader& lines, std::string_view& line) {
+  const bool is_quoted = trimmed(line).substr(0, 1) == "\"";
+  std::string field;
+  if (is_quoted) {
+    line.remove_prefix(line.find('"') + 1);
+    field = takeQuoted(lines, line);
+  }
+  const std::string_view rest = trimmed(line.substr(0, line.find(',')));
+  if (is_quoted && !rest.empty()) lines.fail(inQuotes(rest) + " behind a quote", "a comma");
+  line.remove_prefix(std::min(line.find(','), line.size()));
+  return is_quoted ? field : std::string(rest);
+}
+
+}  // namespace
+
+void appendCsvField(std::string& line, std::string_view field) {
+  if (field.find_first_of(",\"\r\n") == std::string_view::npos) {
+    line += field;
+    return;
+  }
+  line += '"';
+  for (const char character : field) line.append(character == '"' ? 2 : 1, character);
+  line += '"';
+}
+
+bool nextCsvRow(LineReader& lines, std::vector<std::string>& fields) {
+  std::string_view line;
+  if (!lines.next(line)) return false;
+  fields = {takeField(lines, line)};
+  while (!line.empty()) {
+    line.remove_prefix(1);
+    fields.push_back(takeField(lines, line));
+  }
+  return true;
+}
+
+namespace {
+
+/// Number of characters of a UTF-8 text.
+std::size_t displayWidth(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned>(c) & 0xC0u) != 0x80u;
+  }));
+}
+
+}  // namespace
+
+std::string alignColumns(const std::vector<TableRow>& rows, std::size_t text_columns) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const TableRow& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      widths[i] = std::max(widths[i], displayWidth(row[i]));
+    }
+  }
+  std::string text;
+  for (const TableRow& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - displayWidth(row[i]), ' ');
+      if (i > 0) text += "  ";
+      text += i < text_columns ? row[i] + padding : padding + row[i];
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+namespace {
+
+namespace utf = boost::locale::utf;
+
+bool isCharacter(utf::code_point c) { return c != utf::illegal && c != utf::incomplete; }
+
+bool isPrintable(utf::code_point c) {
+  if (c == '\t' || c == '\n' || c == '\r') return true;
+  return isCharacter(c) && c >= 0x20 && c != 0x7f && c != 0xfffe && c != 0xffff;
+}
+
+}  // namespace
+
+std::string printableText(std::string_view text) {
+  constexpr const char* kReplacement = "\xef\xbf\xbd";
+  std::string result;
+  const char* const end = text.data() + text.size();
+  for (const char* at = text.data(); at != end;) {
+    const char* behind = at;
+    const utf::code_point c = utf::utf_traits<char>::decode(behind, end);
+    if (!isCharacter(c)) behind = at + 1;  // what follows that byte may be one
+    if (isPrintable(c)) {
+      result.append(at, behind);
+    } else {
+      result += kReplacement;
+    }
+    at = behind;
+  }
+  return result;
+}
+
+}  // namespace pcrb
