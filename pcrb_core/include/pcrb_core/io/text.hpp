@@ -44,7 +44,7 @@ void splitAt(char separator, std::string_view line, std::vector<std::string_view
 /// The text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 
-/// A text in quotes for a message: shortened to 40 bytes, what is not printable ASCII as \xNN.
+/// A text in quotes for a message: shortened to 40 bytes, non-printable bytes in hexadecimal.
 std::string inQuotes(std::string_view text);
 
 /// Appends a field of a row of comma-separated values, quoted where it must be (RFC 4180).
