@@ -46,6 +46,17 @@ std::string temporaryName(const std::string& path) {
   return (target.parent_path() / name).string();
 }
 
+/// Whether a name is one of temporaryName()'s, `.NAME.PID-N.tmp`, of a file whose name starts so.
+bool isTemporaryName(std::string_view name, const std::string& start) {
+  constexpr std::string_view kEnd = ".tmp";
+  if (name.size() < kEnd.size() || name.substr(name.size() - kEnd.size()) != kEnd) return false;
+  name.remove_suffix(kEnd.size());
+  const std::size_t dot = name.rfind('.');
+  return name.substr(0, start.size() + 1) == "." + start && dot > 0 &&
+         dot != std::string_view::npos && name.find('-', dot) != std::string_view::npos &&
+         name.find_first_not_of("0123456789-", dot + 1) == std::string_view::npos;
+}
+
 /// Makes a rename survive a power cut; filesystems that cannot sync folders are left alone.
 void syncFolderOf(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
@@ -103,6 +114,12 @@ void writeFileAtomically(const std::string& path, std::string_view text) {
   AtomicFile file(path);
   file.write(text);
   file.commit();
+}
+
+void removeTemporaryFiles(const std::string& folder, const std::string& name) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (isTemporaryName(entry.path().filename().string(), name)) fs::remove(entry.path());
+  }
 }
 
 namespace {

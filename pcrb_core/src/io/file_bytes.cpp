@@ -123,4 +123,14 @@ std::string fileSha256(const std::string& path) {
   return toHex(hash);
 }
 
+std::string fingerprintOf(std::string_view text) {
+  Fnv1a hash;
+  hash.add(text);
+  std::string digits;
+  for (int shift = 60; shift >= 0; shift -= 4) {
+    digits += "0123456789abcdef"[hash.value() >> shift & 0xf];
+  }
+  return digits;
+}
+
 }  // namespace pcrb

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/parallel.hpp"
@@ -17,18 +18,18 @@
 namespace pcrb {
 namespace {
 
-/// FNV-1a over the bits of the coordinates.
+/// Of the bits of the coordinates.
 std::size_t hashOf(const std::vector<Eigen::Vector3d>& points) {
-  std::size_t hash = 0xcbf29ce484222325ULL;
+  Fnv1a hash;
   for (const Eigen::Vector3d& point : points) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      std::size_t bits = 0;
+      std::uint64_t bits = 0;
       const double coordinate = point[axis];
       std::memcpy(&bits, &coordinate, sizeof(bits));
-      hash = (hash ^ bits) * 0x100000001b3ULL;
+      hash.add(bits);
     }
   }
-  return hash;
+  return hash.value();
 }
 
 /// Findings about one cloud; its summary if it could be read.

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/problem/problem.hpp"
 
 namespace pcrb {
@@ -77,9 +78,9 @@ Transform samplePerturbation(const Eigen::Vector3d& source_centroid,
 }
 
 std::uint64_t streamSeed(std::uint64_t seed, const std::string& purpose) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
-  for (const char c : purpose) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return mixed(hash + mixed(seed));
+  Fnv1a hash;
+  hash.add(purpose);
+  return mixed(hash.value() + mixed(seed));
 }
 
 std::vector<Problem> sampleProblems(

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <string_view>
 #include <unordered_map>
 
@@ -171,26 +170,6 @@ std::string problemId(const std::string& sequence, std::size_t index, std::size_
   const std::string digits = std::to_string(index);
   const std::size_t width = std::to_string(31 * pairs - 1).size();
   return std::to_string(crc32(sequence)) + std::string(width - digits.size(), '0') + digits;
-}
-
-namespace {
-
-constexpr std::string_view kTool = "tool: ";
-
-}  // namespace
-
-std::string toolThatDrew(const std::string& problem_file, const std::string& hash) {
-  const std::string side_file = problem_file + ".yaml";
-  if (!std::filesystem::is_regular_file(side_file)) return {};
-  const FileBytes bytes(side_file);
-  LineReader lines(bytes.text(), side_file);
-  std::string tool;
-  bool is_of_this_file = false;
-  for (std::string_view line; lines.next(line);) {
-    if (line.substr(0, kTool.size()) == kTool) tool = trimmed(line.substr(kTool.size()));
-    is_of_this_file = is_of_this_file || line == "output_blake2b: " + hash;
-  }
-  return is_of_this_file ? tool : std::string();
 }
 
 }  // namespace pcrb

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/problem/selection.hpp"
@@ -104,7 +105,7 @@ RunPlan makeRunPlan(const ServerParameters& parameters) {
     const std::filesystem::path path(files.problem_file);
     const std::string name = files.data_set + "/" + path.filename().string();
     const std::string hash = plan.problem_files[name] = fileHash(files.problem_file);
-    const std::string tool = toolThatDrew(files.problem_file, hash);
+    const std::string tool = generatorOf(files.problem_file, hash);
     if (!tool.empty()) plan.drawn_by[name] = tool;
   }
   plan.problems = select(plan.problems, parameters);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "report/catalog.hpp"
@@ -19,7 +20,7 @@ bool isDrawn(const Entry& entry, const SequenceKey& key, const std::string& root
   if (root.empty() || !std::filesystem::is_regular_file(path)) return false;
   const auto known = entry.info.find("problem_file " + name);
   const std::string hash = known == entry.info.end() ? pcrb::fileHash(path) : known->second;
-  return !pcrb::toolThatDrew(path, hash).empty();
+  return !pcrb::generatorOf(path, hash).empty();
 }
 
 }  // namespace

@@ -2,16 +2,17 @@
 
 #include <cmath>
 
+#include "pcrb_core/io/file_bytes.hpp"
+
 namespace pcrb_tools::simulation {
 
 pcrb::Random makeStream(std::uint64_t seed, std::string_view name, std::uint64_t index) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
-  const auto take = [&hash](std::uint64_t byte) { hash = (hash ^ byte) * 0x100000001b3ULL; };
-  for (const char letter : name) take(static_cast<unsigned char>(letter));
+  pcrb::Fnv1a hash;
+  hash.add(name);
   for (const std::uint64_t number : {seed, index}) {
-    for (int shift = 0; shift < 64; shift += 8) take((number >> shift) & 0xff);
+    for (int shift = 0; shift < 64; shift += 8) hash.add((number >> shift) & 0xff);
   }
-  return pcrb::Random(hash);
+  return pcrb::Random(hash.value());
 }
 
 double drawNormal(pcrb::Random& random) {

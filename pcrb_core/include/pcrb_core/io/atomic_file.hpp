@@ -41,6 +41,11 @@ class AtomicFile {
 /// @throws InvalidFile  if the file cannot be written completely.
 void writeFileAtomically(const std::string& path, std::string_view text);
 
+/// Removes the temporary files that killed processes left of an AtomicFile.
+///
+/// @param name  of the file, or the start of the names of several; empty: of all in the folder.
+void removeTemporaryFiles(const std::string& folder, const std::string& name = {});
+
 /// The right to what a file stands for, held by at most one object on the machine.
 ///
 /// A lock of the kernel on the file, which stays behind: who is killed leaves no stale lock. The

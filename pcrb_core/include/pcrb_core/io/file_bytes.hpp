@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,5 +33,22 @@ std::string fileHash(const std::string& path);
 ///
 /// @throws InvalidFile  if the file cannot be read.
 std::string fileSha256(const std::string& path);
+
+/// A quick hash of what is added, in its order (FNV-1a, 64 bits); keeps nothing secret.
+class Fnv1a {
+ public:
+  /// Adds a byte, or 64 bits at once, which gives another hash than byte by byte.
+  void add(std::uint64_t bits) { hash_ = (hash_ ^ bits) * 0x100000001b3ULL; }
+  void add(std::string_view text) {
+    for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+/// A text of 16 hexadecimal digits that differs when the text differs: its Fnv1a.
+std::string fingerprintOf(std::string_view text);
 
 }  // namespace pcrb

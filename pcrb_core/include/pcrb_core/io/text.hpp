@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,18 @@ void splitAt(char separator, std::string_view line, std::vector<std::string_view
 
 /// The text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
+
+/// The parts one behind the other, with a separator between them: `a, b, c`.
+/// @tparam Texts  a range of std::string.
+template <typename Texts>
+std::string joined(const Texts& parts, std::string_view separator = ", ") {
+  std::string text;
+  for (const auto& part : parts) {
+    if (&part != &*std::begin(parts)) text += separator;
+    text += part;
+  }
+  return text;
+}
 
 /// A text in quotes for a message: shortened to 40 bytes, non-printable bytes in hexadecimal.
 std::string inQuotes(std::string_view text);
