@@ -1,5 +1,5 @@
-// The metric of one reply to a problem of 365,000 points (DESIGN §7), against the formula written
-// with PCL: the source is transformed, the result's centroid taken, the ratios of
+// The metric of one reply to a problem of 365,000 points (docs/benchmarks.md), against the formula
+// written with PCL: the source is transformed, the result's centroid taken, the ratios of
 // pcl::euclideanDistance summed. Both get the pose and the source at ground truth.
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
-// Loading a sequence's cloud (DESIGN §7): an ASCII PCD file of 365,000 points and 21 MB, as
-// writePcd makes it, with pcl::io::loadPCDFile and with readPcd on one and on two threads. The file
-// is in the page cache for all of them.
+// Loading a sequence's cloud (docs/benchmarks.md): an ASCII PCD file of 365,000 points and 21 MB,
+// as writePcd makes it, with pcl::io::loadPCDFile and with readPcd on one and on two threads. The
+// file is in the page cache for all of them.
 
 #include <benchmark/benchmark.h>
 #include <pcl/io/pcd_io.h>

@@ -7,7 +7,7 @@
 
 namespace pcrb {
 
-/// Statements that make the tables of a results store (DESIGN §4).
+/// Statements that make the tables of a results store (docs/formats.md).
 extern const char* const kResultsSchema;
 
 /// Names of the columns of table `result`, in order, separated by `, `.

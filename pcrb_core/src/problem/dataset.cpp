@@ -21,7 +21,7 @@
 namespace pcrb {
 namespace {
 
-/// Parameters of the published data sets (DESIGN §3), others' defaults.
+/// Parameters of the published data sets (docs/methods.md), others' defaults.
 Dataset builtIn(const std::string& name, BoundsSource source) {
   const bool is_note = source == BoundsSource::kNote;
   Dataset dataset;

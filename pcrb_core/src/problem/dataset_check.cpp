@@ -117,7 +117,8 @@ std::vector<Finding> checkClouds(const std::string& folder, int threads, CloudSu
 
 namespace {
 
-/// Published overlaps have four decimals and were computed by an approximate search (DESIGN §3).
+/// Published overlaps have four decimals and were computed by an approximate search
+/// (docs/methods.md).
 constexpr double kOverlapTolerance = 2e-3;
 
 /// More than an approximate search misses, or than another conversion of the same scans changes:

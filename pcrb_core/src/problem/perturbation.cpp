@@ -11,7 +11,7 @@ namespace pcrb {
 namespace {
 
 /// The published bounds are bounds of what was sampled; centroids of re-converted clouds differ a
-/// little (DESIGN §4).
+/// little (docs/formats.md).
 constexpr double kFrameFactor = 1.1;
 constexpr double kFrameSlack = 0.2;
 

@@ -2,7 +2,7 @@
 
 namespace pcrb {
 
-/// Names of the ROS interface (DESIGN §5), relative to the server's namespace.
+/// Names of the ROS interface (docs/interface.md), relative to the server's namespace.
 namespace topics {
 
 constexpr const char* kTarget = "target";

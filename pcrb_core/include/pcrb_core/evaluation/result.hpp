@@ -30,7 +30,7 @@ struct ProblemKey {
   bool operator==(const ProblemKey& other) const;
 };
 
-/// One row of the results store (DESIGN §4). Unknown is an empty optional, stored as NULL.
+/// One row of the results store (docs/formats.md). Unknown is an empty optional, stored as NULL.
 struct Result {
   ProblemKey key;
   std::string source;

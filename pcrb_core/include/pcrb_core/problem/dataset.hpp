@@ -34,7 +34,7 @@ struct Dataset {
 };
 
 /// Which perturbation bounds the four published data sets have: those measured in the published
-/// problem files, or those of upstream's own note (DESIGN §3).
+/// problem files, or those of upstream's own note (docs/methods.md).
 enum class BoundsSource { kMeasured, kNote };
 
 /// Parameters of a data set: built in for eth, planetary, tum and kaist; overridden, key by key, by

@@ -10,7 +10,7 @@
 
 namespace pcrb {
 
-/// File name of the cloud of a folder that is a map and no scan (FORMATS: p2at_met's folder).
+/// File name of the cloud of a folder that is a map and no scan (docs/formats.md, Planetary).
 constexpr const char* kMapCloud = "box_map.pcd";
 
 /// A source, a target and their overlap in [0, 1].

@@ -7,7 +7,7 @@
 
 namespace pcrb {
 
-/// How a problem is put to a client; the score is the same (DESIGN §5).
+/// How a problem is put to a client; the score is the same (docs/interface.md).
 enum class PresentationKind { kRegistration, kLocalization };
 
 /// `registration` or `localization`.
