@@ -40,13 +40,13 @@ class BridgeAnswersTest(AnsweringTestCase):
 
     def test_a_scan_that_a_slow_node_still_has_is_finished_before_the_next_problem(self):
         """It is slower than answer_limit, so that it has one more scan when its first answer comes."""
-        server = self.localization(subset=4)
-        self.answering(server, make=SlowRobot, work=0.3)
-        self.assert_motion_is_scored(self.scores(server, answer_limit=0.15))
+        server = self.localization(subset=3)
+        self.answering(server, make=SlowRobot, work=0.8)
+        self.assert_motion_is_scored(self.scores(server, answer_limit=0.4))
 
     def test_a_scan_that_a_node_has_at_the_deadline_is_finished_before_the_next_problem(self):
-        server = self.localization(subset=3, time_limit=1.0)
-        self.answering(server, make=SlowRobot, work=0.2)
+        server = self.localization(subset=3, time_limit=2.0)
+        self.answering(server, make=SlowRobot, work=0.5)
         rows = self.scores(server, settle='deadline')
         self.assert_motion_is_scored(rows, times=lambda row: row['scans_used'])
 
