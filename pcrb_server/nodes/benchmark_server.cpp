@@ -35,7 +35,7 @@ Exit status: 0 only if every problem has a result.)"};
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownNotice& shutdown) {
+  return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownRequest& shutdown) {
     const pcrb::ServerParameters parameters = pcrb::readServerParameters();
     pcrb::BenchmarkServer server(parameters, shutdown);
     return server.run() ? 0 : 1;

@@ -31,7 +31,7 @@ Services: ~start, ~pause, ~step (std_srvs/Trigger).)"};
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownNotice& shutdown) {
+  return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownRequest& shutdown) {
     const pcrb::ReplayParameters parameters = pcrb::readReplayParameters();
     pcrb::Replay(parameters, shutdown).run();
     return 0;

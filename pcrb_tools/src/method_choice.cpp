@@ -36,7 +36,7 @@ std::string fileOfLibrary(const std::string& library) {
 /// A bare name is one that the loader looks for.
 std::string readPlugin(pcrb::NodeParameters& reader) {
   const std::string plugin = reader.string("plugin", "");
-  return plugin.find('/') == std::string::npos ? plugin : reader.path("plugin");
+  return plugin.find('/') == std::string::npos ? plugin : reader.path("plugin", "");
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ MethodChoice::MethodChoice(pcrb::NodeParameters& reader)
       plugin_(readPlugin(reader)),
       file_(reader.path("parameters", ros::package::getPath("pcrb_launch") + "/config/methods/" +
                                           method_ + ".yaml")) {
-  reader.setsItself(kInEffect);
+  reader.allowOwnParameter(kInEffect);
   reader.check([this] {
     if (!plugin_.empty()) pcrb::loadRegistrationLibrary(plugin_);
     pcrb::registrationDefaults(method_);  // an unknown method has no file, either

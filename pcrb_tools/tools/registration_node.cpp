@@ -22,7 +22,7 @@ Sets itself:
 Topics and services: problem, target, source, summary; ready, submit_pose; in the namespace /pcrb
 unless another is given. Ends when the server says that the run is over.)"};
 
-int run(pcrb::ShutdownNotice& shutdown) {
+int run(pcrb::ShutdownRequest& shutdown) {
   pcrb::NodeParameters reader;
   const pcrb_tools::MethodChoice method(reader);
   reader.finish();

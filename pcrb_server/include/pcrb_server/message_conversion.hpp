@@ -7,6 +7,8 @@
 #include <std_msgs/Header.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -15,6 +17,33 @@
 
 /// The one place where the suite's types become ROS messages and back.
 namespace pcrb {
+
+/// Number of points of a message. They follow each other by point_step alone: some drivers leave
+/// row_step at 0.
+///
+/// @throws InvalidProblem  if the message is big-endian or its sizes do not fit its data.
+std::size_t countPoints(const sensor_msgs::PointCloud2& message);
+
+bool hasField(const sensor_msgs::PointCloud2& message, const std::string& name);
+
+/// Whether there is a field of that name that PointField can read.
+bool hasFloatField(const sensor_msgs::PointCloud2& message, const std::string& name);
+
+/// One named field of the points of a message, FLOAT32 or FLOAT64.
+class PointField {
+ public:
+  /// @param message  must outlive this; its sizes were checked by countPoints.
+  /// @throws InvalidProblem  if there is no such field, it is of another type, or it does not fit
+  ///                         into point_step.
+  PointField(const sensor_msgs::PointCloud2& message, const std::string& name);
+
+  double operator[](std::size_t point) const;
+
+ private:
+  const std::uint8_t* first_;
+  std::size_t step_;
+  bool is_double_;
+};
 
 /// A message of T · cloud: float32 x y z (+ intensity where the cloud has it), little-endian,
 /// dense, height 1. Points are transformed in double.
@@ -43,15 +72,31 @@ geometry_msgs::Pose toMessage(const Transform& T);
 geometry_msgs::TransformStamped toMessage(const Transform& T, const std_msgs::Header& header,
                                           const std::string& child_frame);
 
+/// A frame's name without the slash that old nodes put in front of it.
+inline std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
 std_msgs::Header makeHeader(const std::string& frame, const ros::Time& stamp);
 
 /// @throws InvalidProblem  for non-finite numbers or a zero quaternion; others are normalised.
 Transform fromMessage(const geometry_msgs::Pose& pose);
 Transform fromMessage(const geometry_msgs::Transform& transform);
 
-/// Row-major x y z rx ry rz. None if all numbers are zero, which is what a node leaves that has
-/// none, or if one is not finite.
-std::optional<std::array<double, 36>> covarianceOf(
-    const geometry_msgs::PoseWithCovariance& estimate);
+/// Row-major x y z rx ry rz, about the axes of the frame that the pose is in.
+using PoseCovariance = std::array<double, 36>;
+
+/// The same covariance about the axes of another frame.
+PoseCovariance rotatedCovariance(const PoseCovariance& in_parent,
+                                 const Eigen::Matrix3d& R_map_parent);
+
+/// The covariance of the pose of a frame `b` that is mounted on `a`, of that of `a`: a rotation
+/// moves what is mounted away from its origin. First order.
+PoseCovariance mountedCovariance(const PoseCovariance& of_a, const Transform& T_map_a,
+                                 const Transform& T_a_b);
+
+/// None if all numbers are zero, which is what a node leaves that has none, or if one is not
+/// finite.
+std::optional<PoseCovariance> covarianceOf(const geometry_msgs::PoseWithCovariance& estimate);
 
 }  // namespace pcrb

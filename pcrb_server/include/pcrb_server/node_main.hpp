@@ -4,12 +4,14 @@
 #include <mutex>
 #include <string>
 
+#include "pcrb_server/parameter_table.hpp"
+
 namespace pcrb {
 
 /// Tells a node's work that it has to end: SIGINT, SIGTERM or a shutdown by the master.
-class ShutdownNotice {
+class ShutdownRequest {
  public:
-  /// Calls back, from another thread and at once if the notice came already. One callback at a
+  /// Calls back, from another thread and at once if the request came already. One callback at a
   /// time.
   void onShutdown(std::function<void()> callback);
 
@@ -20,7 +22,7 @@ class ShutdownNotice {
 
  private:
   friend class ShutdownWatcher;
-  void give();
+  void make();
 
   mutable std::mutex mutex_;
   bool requested_ = false;
@@ -31,18 +33,19 @@ class ShutdownNotice {
 struct NodeHelp {
   std::string name;
   std::string description;
-  std::string details;  ///< parameters, topics, examples
+  std::string details;  ///< topics, services, examples
+  ParameterTable parameters = {};
 };
 
 /// Runs a node: what every node's main ends with.
 ///
 /// `--help` needs no master; other arguments but ROS's own are refused. A node started without a
 /// namespace runs in `/pcrb`. A missing master, and `use_sim_time` without `/clock` for 5 s, are
-/// errors. Signals end the node in order through the notice; a second one ends it at once. An
+/// errors. Signals end the node in order through the request; a second one ends it at once. An
 /// exception becomes one message on standard error, not on /rosout, where a client could read it.
 ///
 /// @param body  the node's work; what it returns is the exit status.
 int runNode(int argc, char** argv, const NodeHelp& help,
-            const std::function<int(ShutdownNotice&)>& body);
+            const std::function<int(ShutdownRequest&)>& body);
 
 }  // namespace pcrb

@@ -7,29 +7,45 @@
 #include <string>
 #include <vector>
 
-namespace pcrb {
+#include "pcrb_server/parameter_table.hpp"
 
-/// Why a program that roslaunch starts refuses a relative path, and what to write instead; empty
-/// for a path that is absolute or empty.
-///
-/// @param argument  of the launch file.
-std::string relativePathMistake(const std::string& argument, const std::string& path);
+namespace pcrb {
 
 /// Reads a node's private parameters and collects every mistake, to list them all at once.
 ///
-/// Names that nobody asked for are mistakes too: a misspelt parameter must not be ignored in
-/// silence.
+/// Names that are in no table and were not asked for are mistakes too: a misspelt parameter must
+/// not be ignored in silence.
 class NodeParameters {
  public:
+  /// Without a table: every read says its default.
   NodeParameters();
+
+  /// @param table  of all parameters that are read; a read of another is an error of the program.
+  explicit NodeParameters(ParameterTable table);
+
+  std::string string(const std::string& name);
+
+  /// An absolute path, or none: roslaunch starts nodes in another folder than the user's.
+  std::string path(const std::string& name);
+
+  /// One of the words that the table allows.
+  std::string choice(const std::string& name);
+
+  bool boolean(const std::string& name);
+  int integer(const std::string& name, int min, int max);
+
+  /// A finite number; an integer parameter is accepted.
+  double number(const std::string& name, double min, double max);
+
+  /// A list of words: a YAML list, or a string separated by commas or blanks.
+  std::vector<std::string> words(const std::string& name);
 
   std::string string(const std::string& name, const std::string& fallback);
 
   /// Text that must be there and not be empty.
   std::string requiredString(const std::string& name);
 
-  /// An absolute path, or none: roslaunch starts nodes in another folder than the user's.
-  std::string path(const std::string& name, const std::string& fallback = "");
+  std::string path(const std::string& name, const std::string& fallback);
 
   /// An absolute path that must be there.
   std::string requiredPath(const std::string& name);
@@ -41,10 +57,8 @@ class NodeParameters {
   bool boolean(const std::string& name, bool fallback);
   int integer(const std::string& name, int fallback, int min, int max);
 
-  /// A finite number; an integer parameter is accepted.
   double number(const std::string& name, double fallback, double min, double max);
 
-  /// A list of words: a YAML list, or a string separated by commas or blanks.
   std::vector<std::string> words(const std::string& name, const std::string& fallback);
 
   /// Runs a check that throws pcrb::Error on a mistake, and keeps its message.
@@ -53,18 +67,22 @@ class NodeParameters {
   void addMistake(const std::string& mistake) { mistakes_.push_back(mistake); }
 
   /// Names a parameter that the node itself sets: one that an earlier start left is no mistake.
-  void setsItself(const std::string& name) { asked_.insert(name); }
+  void allowOwnParameter(const std::string& name) { asked_.insert(name); }
 
   /// Throws InvalidParameter with every mistake found so far and every private parameter whose name
   /// was never asked for; call it after the last read.
   void finish();
 
  private:
+  const NodeParameter& entryOf(const std::string& name) const;
+  std::string fallbackOf(const std::string& name) const;
+  void requireValue(const std::string& name, bool is_empty, std::size_t mistakes);
   bool find(const std::string& name, XmlRpc::XmlRpcValue& value);
   void checkPath(const std::string& name, const std::string& value);
   void mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
                const std::string& expected);
 
+  ParameterTable table_;
   ros::NodeHandle node_;
   std::set<std::string> asked_;
   std::vector<std::string> mistakes_;

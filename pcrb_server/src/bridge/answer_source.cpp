@@ -3,10 +3,14 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <ros/master.h>
+#include <ros/this_node.h>
+
+#include <set>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_server/frame_name.hpp"
 #include "pcrb_server/message_conversion.hpp"
+#include "ros/topic_peers.hpp"
 
 namespace pcrb {
 
@@ -69,8 +73,9 @@ PublishedPose publishedPose(const geometry_msgs::TransformStamped& message) {
   return pose;
 }
 
-AnswerSource::AnswerSource(ros::NodeHandle& node, const std::string& topic, Listener listener)
-    : topic_(topic), listener_(std::move(listener)) {
+AnswerSource::AnswerSource(ros::NodeHandle& node, const std::string& topic, Listener listener,
+                           FaultListener faults)
+    : topic_(topic), listener_(std::move(listener)), faults_(std::move(faults)) {
   using Message = topic_tools::ShapeShifter;
   subscriber_ = node.subscribe<Message>(
       topic, kQueue, [this](const Message::ConstPtr& message) { take(message); },
@@ -82,16 +87,36 @@ void AnswerSource::take(const topic_tools::ShapeShifter::ConstPtr& message) {
   try {
     pose = readAny(*message);
   } catch (const InvalidProblem& error) {
-    mistake_ = topic_ + ": " + error.what();
-    return;
+    return faults_(AnswerFault::kInvalid, topic_ + ": " + error.what());
   }
   if (!pose) {
-    mistake_ = topic_ + ": found messages of type " + message->getDataType() +
-               ", expected PoseStamped, PoseWithCovarianceStamped, TransformStamped or Odometry";
-    return;
+    return faults_(
+        AnswerFault::kType,
+        topic_ + ": found messages of type " + message->getDataType() +
+            ", expected PoseStamped, PoseWithCovarianceStamped, TransformStamped or Odometry");
   }
-  mistake_.clear();
   listener_(*pose);
+}
+
+std::vector<PoseTopic> publishedPoseTopics(const std::string& excluded) {
+  static const std::set<std::string> kPoseTypes{
+      "geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped",
+      "geometry_msgs/TransformStamped", "nav_msgs/Odometry"};
+  ros::master::V_TopicInfo topics;
+  if (!ros::master::getTopics(topics)) return {};
+  const PublishersByTopic publishers = publishersByTopic();
+  std::vector<PoseTopic> found;
+  for (const auto& topic : topics) {
+    if (kPoseTypes.count(topic.datatype) == 0 || topic.name == excluded) continue;
+    std::string nodes;
+    const auto [first, last] = publishers.equal_range(topic.name);
+    for (auto node = first; node != last; ++node) {
+      if (node->second == ros::this_node::getName()) continue;
+      nodes += (nodes.empty() ? "" : " ") + node->second;
+    }
+    if (!nodes.empty()) found.push_back({topic.name, topic.datatype, nodes});
+  }
+  return found;
 }
 
 }  // namespace pcrb

@@ -6,12 +6,14 @@
 #include <ros/time.h>
 #include <topic_tools/shape_shifter.h>
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "bridge/answer_diagnosis.hpp"
 #include "pcrb_core/transform.hpp"
+#include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
 
@@ -21,7 +23,7 @@ struct PublishedPose {
   std::string parent;  ///< empty where the message does not say
   std::string frame;   ///< empty where the message does not say
   Transform T_parent_frame = Transform::Identity();
-  std::optional<std::array<double, 36>> covariance;  ///< row-major x y z rx ry rz, finite
+  std::optional<PoseCovariance> covariance;
 };
 
 /// @throws InvalidProblem  for numbers that are no pose.
@@ -32,19 +34,27 @@ PublishedPose publishedPose(const geometry_msgs::TransformStamped& message);
 class AnswerSource {
  public:
   using Listener = std::function<void(const PublishedPose&)>;
+  using FaultListener = std::function<void(AnswerFault, const std::string& text)>;
 
-  AnswerSource(ros::NodeHandle& node, const std::string& topic, Listener listener);
+  /// @param faults  called for messages of another type and for numbers that are no pose.
+  AnswerSource(ros::NodeHandle& node, const std::string& topic, Listener listener,
+               FaultListener faults);
 
-  /// What is wrong with the messages, empty if nothing is: their type, or numbers that are no pose.
-  const std::string& mistake() const { return mistake_; }
+  bool isPublished() const { return subscriber_.getNumPublishers() > 0; }
 
  private:
   void take(const topic_tools::ShapeShifter::ConstPtr& message);
 
   std::string topic_;
   Listener listener_;
-  std::string mistake_;
+  FaultListener faults_;
   ros::Subscriber subscriber_;
 };
+
+/// Topics of a type that AnswerSource reads, with the other nodes that publish them; empty if the
+/// master does not answer.
+///
+/// @param excluded  topic to leave out.
+std::vector<PoseTopic> publishedPoseTopics(const std::string& excluded);
 
 }  // namespace pcrb

@@ -3,14 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "bridge/scan_sequence.hpp"
-#include "bridge/settling.hpp"
+#include "bridge/convergence_monitor.hpp"
+#include "bridge/scan_schedule.hpp"
+#include "pcrb_server/parameter_table.hpp"
 
 namespace pcrb {
 
-/// Who publishes a tf link, and how often.
+/// Publication of a tf link by the bridge.
 enum class TfLink {
-  kNone,    ///< the bridge does not: somebody else does, or nobody needs it
+  kNone,    ///< by another node, or not at all
   kStatic,  ///< once, latched on /tf_static
   kDynamic  ///< on /tf with every scan's stamp, sent before the scan
 };
@@ -24,13 +25,13 @@ struct BridgeParameters {
   double odometry_rate = 50.0;            ///< Hz
 
   std::string map_frame, odom_frame, base_frame, scan_frame;
-  std::string answer_frame;  ///< whose pose an answer is that does not say so itself
+  std::string answer_frame;  ///< of which an answer is the pose that names none
   TfLink tf_map_odom = TfLink::kNone;
   TfLink tf_odom_base = TfLink::kStatic;
   TfLink tf_base_scan = TfLink::kStatic;
   enum class Optical { kAuto, kYes, kNo } optical = Optical::kAuto;
 
-  SettlingRule settle;
+  AcceptanceRule settle;
   ScanPolicy scans;  ///< the deadline is set for each problem
   double deadline_fraction = 0.9;
   double finish_limit = 30.0;  ///< s that a node gets to finish its scans after the decision
@@ -51,10 +52,13 @@ struct BridgeParameters {
   std::string restart_service;
   int restart_after = 3;               ///< problems in a row without an answer, 0 = never
   double start_limit = 60.0;           ///< s for a node to be there after a start
-  std::vector<std::string> observers;  ///< what names of nodes begin with that are not under test
+  std::vector<std::string> observers;  ///< beginnings of names of nodes that are not under test
 };
 
-/// Reads and checks all private parameters.
+/// All private parameters.
+extern const ParameterTable kBridgeParameters;
+
+/// Reads and checks them.
 /// @throws InvalidParameter  listing every mistake.
 BridgeParameters readBridgeParameters();
 

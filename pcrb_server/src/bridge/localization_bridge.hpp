@@ -6,17 +6,16 @@
 #include <optional>
 #include <string>
 
+#include "bridge/answer_diagnosis.hpp"
 #include "bridge/answer_source.hpp"
 #include "bridge/bridge_parameters.hpp"
-#include "bridge/node_inputs.hpp"
-#include "bridge/node_keeper.hpp"
-#include "bridge/rivals.hpp"
-#include "bridge/scan_player.hpp"
-#include "bridge/stamp_clock.hpp"
-#include "bridge/tf_links.hpp"
-#include "bridge/tf_watch.hpp"
+#include "bridge/frames.hpp"
+#include "bridge/node_monitor.hpp"
+#include "bridge/robot_inputs.hpp"
+#include "bridge/scan_publisher.hpp"
 #include "pcrb_server/node_main.hpp"
 #include "pcrb_server/server_connection.hpp"
+#include "ros/topic_peers.hpp"
 
 namespace pcrb {
 
@@ -26,56 +25,89 @@ namespace pcrb {
 /// Single-threaded: every wait works off the callback queue.
 class LocalizationBridge {
  public:
-  LocalizationBridge(const BridgeParameters& parameters, ShutdownNotice& shutdown);
+  LocalizationBridge(const BridgeParameters& parameters, ShutdownRequest& shutdown);
 
   /// Serves until the server says that the run is over, which is what it returns; false after a
   /// shutdown.
-  /// @throws Error  naming every rival: who else publishes what the bridge publishes.
+  /// @throws Error  naming every conflict: nodes that publish what the bridge publishes.
   bool run();
 
  private:
   using Condition = std::function<bool()>;
 
+  /// The way of a problem. From each step but the last it goes back to the first when the server
+  /// announces another problem.
+  enum class Step {
+    kWaitForMap,   ///< for the next problem and its target
+    kWaitForNode,  ///< sends the map; until the node and the frame of its sensor are there
+    kSettle,       ///< until the node has used the map and the initial pose; then calls `ready`
+    kPlay,         ///< sends scans until an answer is accepted, and submits it
+    kDrain         ///< until the node has finished its scans
+  };
+
+  /// What belongs to one problem, and ends with it.
+  struct ServedProblem {
+    pcrb_msgs::ProblemConstPtr message;
+    sensor_msgs::PointCloud2ConstPtr target;  ///< from the end of kWaitForMap on
+    SensorMounting mounting;
+    std::optional<Transform> guess;      ///< T_map_source
+    std::optional<ScanPublisher> scans;  ///< from kPlay on
+  };
+
+  /// What the node that is there has had; another node has had nothing.
+  struct NodeHistory {
+    int restart_count = -1;                    ///< which node
+    std::optional<ros::Time> settled_map;      ///< stamp of the map that it had time for
+    bool was_waited_for_subscription = false;  ///< to the initial pose
+  };
+
+  void step();
+  Step waitForMap();
+  Step waitForNode();
+  Step settle();
+  Step play();
+  Step drainNode();
+
   bool waitFor(const Condition& condition, double limit);
   bool waitWhileCurrent(const Condition& condition, const std::string& what);
   void pause(double seconds);
   bool isCurrent() const;
-  void takeTransform(const geometry_msgs::TransformStamped& transform);
+  void refuseConflicts();
 
-  void serve();
-  bool takeTarget();
-  bool prepareNode();
+  void takeTransform(const geometry_msgs::TransformStamped& transform);
+  bool isMapDue() const { return published_map_ != served_->target->header.stamp; }
   void sendMap();
-  bool bringNode();
+  bool bringUpNode();
+  NodeHistory& history();
   void settleMap();
   bool findMounting();
   bool callBeforeProblem();
+  std::optional<Transform> initialPose() const;
   void sendInitialPose();
   bool isOptical() const;
-  void play();
   void submit(pcrb_msgs::SubmitPose::Request request);
-  void letNodeFinish();
+  NoAnswerCause causeOfNoAnswer(double cpu_time) const;
+  void printDiagnosis() const;
 
   const BridgeParameters& parameters_;
-  ShutdownNotice& shutdown_;
+  ShutdownRequest& shutdown_;
   ros::NodeHandle node_;
-  NodeInputs inputs_;
-  TfLinks links_;
+  RobotInputs inputs_;
   TfWatch tf_;
-  StampClock clock_;
-  ScanPlayer player_;
-  NodeKeeper keeper_;
-  Rivals rivals_;
+  NodeMonitor monitor_;
+  ConflictingPublishers conflicts_;
   std::optional<AnswerSource> answers_;  ///< none where answers are read from tf
   ServerConnection server_;
+  ros::Subscriber results_;
 
-  pcrb_msgs::ProblemConstPtr problem_;  ///< that is being served
-  ros::Time target_stamp_;              ///< of the target that the map is
-  PointCloud map_;
-  bool is_map_due_ = false;             ///< whether it has to be sent
-  std::optional<int> generation_;       ///< of the node that has the map
-  std::optional<int> pose_generation_;  ///< of the node whose subscription was waited for
-  ScanProblem scan_problem_;            ///< what is known of it so far
+  Step step_ = Step::kWaitForMap;
+  std::optional<ServedProblem> served_;
+  pcrb_msgs::ProblemConstPtr newest_;       ///< that was or is being served
+  std::optional<ros::Time> published_map_;  ///< stamp of the target that was sent as map
+  NodeHistory history_;
+  ResponseTime response_time_;  ///< of the node, from the problems so far
+  FailureLog failures_;
+  MisalignmentCheck misalignment_;
 };
 
 }  // namespace pcrb

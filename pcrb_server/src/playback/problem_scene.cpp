@@ -1,7 +1,7 @@
 #include "playback/problem_scene.hpp"
 
-#include "drawing.hpp"
 #include "pcrb_server/message_conversion.hpp"
+#include "ros/drawing.hpp"
 
 namespace pcrb {
 

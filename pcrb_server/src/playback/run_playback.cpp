@@ -2,12 +2,12 @@
 #include <map>
 #include <set>
 
-#include "drawing.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/playback/playback.hpp"
 #include "playback/problem_scene.hpp"
+#include "ros/drawing.hpp"
 #include "server/scoring.hpp"
 
 namespace pcrb {

@@ -1,7 +1,7 @@
 #include "playback/scene_frames.hpp"
 
-#include "drawing.hpp"
 #include "pcrb_server/message_conversion.hpp"
+#include "ros/drawing.hpp"
 
 namespace pcrb {
 
@@ -14,7 +14,7 @@ void SceneFrames::set(Scene& scene, const ros::Time& stamp, const PointCloud& sh
     transforms.push_back(toMessage(Transform(Eigen::Translation3d(shown.local_origin)),
                                    makeHeader("earth", stamp), map_frame_));
   }
-  transforms.push_back(toMessage(Transform(Eigen::Translation3d(middleOf(shown))),
+  transforms.push_back(toMessage(Transform(Eigen::Translation3d(boxCenter(shown))),
                                  makeHeader(map_frame_, stamp), "pcrb_target"));
 }
 

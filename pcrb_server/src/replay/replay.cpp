@@ -5,11 +5,11 @@
 
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_server/playback/scan_list.hpp"
-#include "trigger_service.hpp"
+#include "ros/node_calls.hpp"
 
 namespace pcrb {
 
-Replay::Replay(const ReplayParameters& parameters, ShutdownNotice& shutdown)
+Replay::Replay(const ReplayParameters& parameters, ShutdownRequest& shutdown)
     : parameters_(parameters),
       shutdown_(shutdown),
       playback_(makePlayback(parameters)),

@@ -19,7 +19,7 @@ namespace pcrb {
 /// Shows a playback at its rate, on the steady clock; can be paused, stepped and looped.
 class Replay {
  public:
-  Replay(const ReplayParameters& parameters, ShutdownNotice& shutdown);
+  Replay(const ReplayParameters& parameters, ShutdownRequest& shutdown);
   ~Replay();
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
@@ -37,7 +37,7 @@ class Replay {
   void writeStamps() const;
 
   const ReplayParameters& parameters_;
-  ShutdownNotice& shutdown_;
+  ShutdownRequest& shutdown_;
   std::unique_ptr<Playback> playback_;
 
   std::mutex mutex_;

@@ -33,7 +33,7 @@ void readSequence(NodeParameters& reader, const std::string& root, const std::st
   sequence.truth = reader.boolean("truth", true);
   sequence.map_frame = reader.string("map_frame", "map");
   sequence.scan_frame = reader.string("scan_frame", "pcrb_scan");
-  parameters.stamps_file = reader.path("stamps_file");
+  parameters.stamps_file = reader.path("stamps_file", "");
 }
 
 void readProblems(NodeParameters& reader, const std::string& root, const std::string& word,
@@ -60,9 +60,9 @@ void readRun(NodeParameters& reader, const std::string& root, ReplayParameters& 
 ReplayParameters readReplayParameters() {
   NodeParameters reader;
   ReplayParameters parameters;
-  const std::string root = reader.path("root");
+  const std::string root = reader.path("root", "");
   const std::string sequence = reader.string("sequence", "");
-  parameters.run.run = reader.path("run");
+  parameters.run.run = reader.path("run", "");
   const std::string kind = reader.choice("problems", "", {"", "local", "global"});
   if (sequence.empty() == parameters.run.run.empty()) {
     reader.addMistake("~sequence or ~run: expected one of the two");

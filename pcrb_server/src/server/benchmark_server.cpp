@@ -9,9 +9,9 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_server/topics.hpp"
+#include "ros/node_calls.hpp"
 #include "server/client_parameters.hpp"
 #include "server/scoring.hpp"
-#include "trigger_service.hpp"
 
 namespace pcrb {
 
@@ -38,7 +38,7 @@ std::string join(const std::set<std::string>& names) {
 
 }  // namespace
 
-BenchmarkServer::BenchmarkServer(const ServerParameters& parameters, ShutdownNotice& shutdown)
+BenchmarkServer::BenchmarkServer(const ServerParameters& parameters, ShutdownRequest& shutdown)
     : parameters_(parameters),
       shutdown_(shutdown),
       plan_(makeRunPlan(parameters)),

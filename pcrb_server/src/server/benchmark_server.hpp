@@ -29,7 +29,7 @@ class BenchmarkServer {
  public:
   /// Opens or resumes the run and offers topics and services.
   /// @throws Error  if the run cannot be posed.
-  BenchmarkServer(const ServerParameters& parameters, ShutdownNotice& shutdown);
+  BenchmarkServer(const ServerParameters& parameters, ShutdownRequest& shutdown);
   ~BenchmarkServer();
   BenchmarkServer(const BenchmarkServer&) = delete;
   BenchmarkServer& operator=(const BenchmarkServer&) = delete;
@@ -53,7 +53,7 @@ class BenchmarkServer {
   bool conclude();
 
   const ServerParameters& parameters_;
-  ShutdownNotice& shutdown_;
+  ShutdownRequest& shutdown_;
   RunPlan plan_;
   RunRecord record_;
   std::vector<PlannedProblem> remaining_;

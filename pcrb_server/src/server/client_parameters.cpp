@@ -21,7 +21,7 @@ std::string parametersOf(const std::string& node) {
 }
 
 void checkClientOfFinishedRun(RunRecord& record, const Publications& publications,
-                              const ShutdownNotice& shutdown, double limit) {
+                              const ShutdownRequest& shutdown, double limit) {
   constexpr auto kPollPeriod = std::chrono::milliseconds(20);
   const std::set<std::string> clients = record.clients();
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);

@@ -15,6 +15,6 @@ std::string parametersOf(const std::string& node);
 /// be put to it; waits for it to listen, `limit` s at most.
 /// @throws StoreError  if it came with other parameters.
 void checkClientOfFinishedRun(RunRecord& record, const Publications& publications,
-                              const ShutdownNotice& shutdown, double limit);
+                              const ShutdownRequest& shutdown, double limit);
 
 }  // namespace pcrb

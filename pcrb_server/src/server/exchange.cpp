@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pcrb_server/frame_name.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {

@@ -9,9 +9,9 @@
 
 #include <cmath>
 
-#include "drawing.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/topics.hpp"
+#include "ros/drawing.hpp"
 #include "server/problem_message.hpp"
 #include "server/scoring.hpp"
 
@@ -53,7 +53,7 @@ void Publications::announceTarget(const PreparedProblem& prepared,
               announcement.stamp, true);
   }
   broadcast(parameters_.map_frame, "pcrb_target",
-            Transform(Eigen::Translation3d(middleOf(prepared.target->cloud))), announcement.stamp,
+            Transform(Eigen::Translation3d(boxCenter(prepared.target->cloud))), announcement.stamp,
             true);
   target_stamp_ = announcement.stamp;
   SerializedCloud target = prepared.target_message;

@@ -11,10 +11,10 @@
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/evaluation/result.hpp"
 #include "pcrb_core/evaluation/summary.hpp"
+#include "ros/topic_peers.hpp"
 #include "server/problem_loader.hpp"
 #include "server/problem_message.hpp"
 #include "server/server_parameters.hpp"
-#include "subscriber_names.hpp"
 
 namespace pcrb {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pose_covariance.hpp"
+#include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
 

@@ -5,7 +5,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_server/frame_name.hpp"
+#include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/node_parameters.hpp"
 
 namespace pcrb {

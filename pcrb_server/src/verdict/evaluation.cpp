@@ -1,9 +1,33 @@
 #include "verdict/evaluation.hpp"
 
+#include <chrono>
+#include <cstring>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/summary.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_server/node_parameters.hpp"
+#include "verdict/run_watcher.hpp"
 
 namespace pcrb {
+
+const ParameterTable kEvaluationParameters{
+    {"max_median", "", "",
+     "largest median of the error allowed: `0.1` for every sequence and the total, `0.1 hall=0.5 "
+     "hall:global=0.8` with others for some; empty: no limit"},
+    {"max_q95", "", "", "largest 0.95 quantile of the error allowed, in the same form"},
+    {"min_replied", "1", "", "least fraction of problems with a valid reply, in the same form"},
+    {"time_limit_total", "3600", "s", "time from this node's start to the end of the run"},
+    {"server", "benchmark_server", "", "name of the server's node"},
+    {"clients", "", "",
+     "names of nodes without which no problem is solved: the run has failed if one ends before it, "
+     "or does not start"},
+    {"run", "", "", "folder of the results, to be named in the report"}};
 
 namespace {
 
@@ -64,6 +88,48 @@ std::string unusedNames(const pcrb_msgs::Summary& summary, const Thresholds& thr
   return text.empty() ? "" : "thresholds are given for what is not in this run:" + text;
 }
 
+struct EvaluationParameters {
+  Thresholds thresholds;
+  double time_limit_total = 3600.0;
+  std::string server;
+  std::vector<std::string> clients;
+  std::string run;
+};
+
+EvaluationParameters readEvaluationParameters() {
+  constexpr double kAny = std::numeric_limits<double>::max();
+  NodeParameters reader(kEvaluationParameters);
+  EvaluationParameters parameters;
+  const auto threshold = [&](const char* name, double max) {
+    Threshold result;
+    const auto words = reader.words(name);
+    reader.check([&] { result = Threshold(name, words, max); });
+    return result;
+  };
+  parameters.thresholds.max_median = threshold("max_median", kAny);
+  parameters.thresholds.max_q95 = threshold("max_q95", kAny);
+  parameters.thresholds.min_replied = threshold("min_replied", 1.0);
+  parameters.time_limit_total = reader.number("time_limit_total", 0.1, 1e9);
+  parameters.server = reader.string("server");
+  parameters.clients = reader.words("clients");
+  parameters.run = reader.path("run");
+  reader.finish();
+  return parameters;
+}
+
+/// Writes the verdict while the watcher still keeps the server from ending: with the server,
+/// rostest may end this node.
+int conclude(JunitReport report, const std::string& run, double seconds, const std::string& file) {
+  report.seconds = seconds;
+  if (!run.empty()) {
+    report.printed += "results: " + run + "\n";
+    report.cases.front().properties.emplace_back("run", run);
+  }
+  std::cout << report.printed << std::flush;
+  if (!file.empty()) writeFileAtomically(file, toXml(report));
+  return report.failures() == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 JunitReport judge(const pcrb_msgs::Summary& summary, const Thresholds& thresholds) {
@@ -84,6 +150,42 @@ JunitReport judgeUnfinished(const std::string& why) {
   report.printed = "FAILED: " + why + "\n";
   report.cases.push_back({kRunCase, {}, why});
   return report;
+}
+
+std::string takeJunitFile(int& argc, char** argv) {
+  constexpr const char* kFlag = "--gtest_output=xml:";
+  std::string file;
+  int kept = 0;
+  for (int i = 0; i < argc; ++i) {
+    if (std::strncmp(argv[i], kFlag, std::strlen(kFlag)) == 0) {
+      file = argv[i] + std::strlen(kFlag);
+    } else if (std::strcmp(argv[i], "--text") != 0) {
+      argv[kept++] = argv[i];
+    }
+  }
+  argc = kept;
+  return file;
+}
+
+int runEvaluation(const std::string& file, const ShutdownRequest& shutdown) {
+  if (!file.empty()) {  // what is left if this node is killed
+    writeFileAtomically(
+        file, toXml(judgeUnfinished("the run did not finish: evaluation_test was killed")));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EvaluationParameters parameters;
+  const auto end = [&](const JunitReport& verdict) {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    return conclude(verdict, parameters.run, took.count(), file);
+  };
+  try {
+    parameters = readEvaluationParameters();
+    RunWatcher watcher(parameters.server, parameters.clients);
+    const auto summary = watcher.wait(parameters.time_limit_total, shutdown);
+    return end(judge(summary, parameters.thresholds));
+  } catch (const Error& error) {
+    return end(judgeUnfinished(error.what()));
+  }
 }
 
 }  // namespace pcrb

@@ -2,10 +2,15 @@
 
 #include <pcrb_msgs/Summary.h>
 
+#include <string>
+
+#include "pcrb_server/node_main.hpp"
 #include "verdict/junit_report.hpp"
 #include "verdict/threshold.hpp"
 
 namespace pcrb {
+
+extern const ParameterTable kEvaluationParameters;
 
 /// The verdict on a run: one test for the run itself and one per row of its summary, with every
 /// number as a property; the table, and every breach of a threshold, as printed text.
@@ -13,5 +18,14 @@ JunitReport judge(const pcrb_msgs::Summary& summary, const Thresholds& threshold
 
 /// The verdict on a run that has no summary.
 JunitReport judgeUnfinished(const std::string& why);
+
+/// Takes rostest's arguments (`--gtest_output=xml:FILE`, `--text`) out of the list.
+/// @return  the file, or nothing.
+std::string takeJunitFile(int& argc, char** argv);
+
+/// Watches a run to its end, prints the verdict, and writes it to a JUnit file if there is one.
+/// Reads the node's private parameters.
+/// @return  exit status: 0 only if the run finished and every threshold was kept.
+int runEvaluation(const std::string& junit_file, const ShutdownRequest& shutdown);
 
 }  // namespace pcrb

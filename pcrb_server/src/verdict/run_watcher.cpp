@@ -91,7 +91,7 @@ void RunWatcher::look(double waited) {
   lookForClients(waited);
 }
 
-pcrb_msgs::Summary RunWatcher::wait(double limit, const ShutdownNotice& shutdown) {
+pcrb_msgs::Summary RunWatcher::wait(double limit, const ShutdownRequest& shutdown) {
   const auto start = Clock::now();
   while (!summary_) {
     listen();

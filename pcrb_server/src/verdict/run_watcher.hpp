@@ -29,7 +29,7 @@ class RunWatcher {
   /// @throws Error  if there is none: the server did not start or has ended before (SIGKILL
   ///                included), a client did not start or gave up, the limit was reached, a signal
   ///                came. The message says how far the run was.
-  pcrb_msgs::Summary wait(double limit, const ShutdownNotice& shutdown);
+  pcrb_msgs::Summary wait(double limit, const ShutdownRequest& shutdown);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -2,7 +2,7 @@
 
 #include <sys/types.h>
 
-#include "pcrb_server/start_program.hpp"
+#include "pcrb_server/processes.hpp"
 
 namespace pcrb_tools {
 

@@ -8,7 +8,7 @@
 #include <csignal>
 #include <thread>
 
-#include "pcrb_server/process_tree.hpp"
+#include "pcrb_server/processes.hpp"
 
 namespace pcrb_tools {
 namespace {

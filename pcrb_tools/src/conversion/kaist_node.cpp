@@ -56,7 +56,7 @@ LiveKaistRequest readRequest() {
   return result;
 }
 
-int run(pcrb::ShutdownNotice& shutdown) {
+int run(pcrb::ShutdownRequest& shutdown) {
   const auto [request, live] = readRequest();
   const KaistFrames frames = readFrames(request, nullptr);
   Conversion conversion(request, request.sequence, 0);

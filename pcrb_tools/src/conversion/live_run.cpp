@@ -56,7 +56,7 @@ std::vector<double> readNumbers(pcrb::NodeParameters& parameters, const std::str
   return {};
 }
 
-void LiveInput::run(const pcrb::ShutdownNotice& shutdown, const LiveOptions& options,
+void LiveInput::run(const pcrb::ShutdownRequest& shutdown, const LiveOptions& options,
                     Conversion& conversion) {
   const ros::WallDuration period(0.1);
   while (!shutdown.requested() && !isIdle(options.idle_limit)) {

@@ -50,7 +50,7 @@ class LiveInput {
   /// Handles messages until the node is to end or the topics are idle, and those that have come by
   /// then; notes topics on which nothing came.
   /// @throws what a scan of the conversion has thrown, at once.
-  void run(const pcrb::ShutdownNotice& shutdown, const LiveOptions& options,
+  void run(const pcrb::ShutdownRequest& shutdown, const LiveOptions& options,
            Conversion& conversion);
 
  private:

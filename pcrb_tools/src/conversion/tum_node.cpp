@@ -70,7 +70,7 @@ void subscribe(const TumOptions& options, TumStream& stream, LiveInput& input) {
       options.info_topic, [&stream](const auto& info) { stream.setCamera(*info); });
 }
 
-int run(pcrb::ShutdownNotice& shutdown) {
+int run(pcrb::ShutdownRequest& shutdown) {
   const auto [request, live] = readRequest();
   const pcrb::Trajectory trajectory =
       pcrb::parseTumTrajectory(pcrb::FileBytes(request.poses).text(), request.poses);

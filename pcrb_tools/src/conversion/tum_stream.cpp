@@ -5,7 +5,7 @@
 #include "conversion/message_scans.hpp"
 #include "conversion/pose_text.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_server/point_fields.hpp"
+#include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb_tools {
 namespace {

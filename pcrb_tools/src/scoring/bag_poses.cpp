@@ -9,7 +9,6 @@
 
 #include "conversion/bag_messages.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_server/frame_name.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "scoring/recorded_poses.hpp"
 

@@ -1,0 +1,114 @@
+#include "bridge/frames.hpp"
+
+#include <ros/this_node.h>
+#include <tf2/exceptions.h>
+
+#include <cmath>
+
+#include "pcrb_server/message_conversion.hpp"
+
+namespace pcrb {
+
+namespace {
+
+constexpr double kTfMemory = 60.0;  // s
+constexpr std::uint32_t kTfQueue = 1000;
+
+}  // namespace
+
+Transform uprightFromOptical(const std::optional<Transform>& T_map_optical) {
+  Eigen::Matrix3d body_optical;
+  body_optical << 0, 0, 1,  //
+      -1, 0, 0,             //
+      0, -1, 0;
+  double roll = 0.0;
+  if (T_map_optical) {
+    const Eigen::Matrix3d map_body = T_map_optical->linear() * body_optical.transpose();
+    roll = std::atan2(map_body(2, 1), map_body(2, 2));
+  }
+  Transform T_upright_optical = Transform::Identity();
+  T_upright_optical.linear() =
+      Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()).toRotationMatrix() * body_optical;
+  return T_upright_optical;
+}
+
+std::array<TfLinks::Link, 3> TfLinks::all() const {
+  const auto& p = parameters_;
+  return {{{p.tf_map_odom, "tf_map_odom", p.map_frame, p.odom_frame},
+           {p.tf_odom_base, "tf_odom_base", p.odom_frame, p.base_frame},
+           {p.tf_base_scan, "tf_base_scan", p.base_frame, p.scan_frame}}};
+}
+
+std::vector<geometry_msgs::TransformStamped> TfLinks::links(TfLink kind,
+                                                            const ros::Time& stamp) const {
+  std::vector<geometry_msgs::TransformStamped> links;
+  for (const Link& link : all()) {
+    if (link.kind != kind) continue;
+    links.push_back(toMessage(Transform::Identity(), makeHeader(link.parent, stamp), link.child));
+  }
+  return links;
+}
+
+void TfLinks::sendStatic(const ros::Time& stamp) {
+  const auto links = this->links(TfLink::kStatic, stamp);
+  if (!links.empty()) static_.sendTransform(links);
+}
+
+void TfLinks::sendDynamic(const ros::Time& stamp) {
+  const auto links = this->links(TfLink::kDynamic, stamp);
+  if (!links.empty()) dynamic_.sendTransform(links);
+}
+
+std::map<std::string, std::string> TfLinks::ownedChildren() const {
+  std::map<std::string, std::string> children;
+  for (const Link& link : all()) {
+    if (link.kind != TfLink::kNone) children.emplace(link.child, link.parameter);
+  }
+  return children;
+}
+
+TfWatch::TfWatch(ros::NodeHandle& node, std::map<std::string, std::string> owned, Listener listener)
+    : owned_(std::move(owned)), listener_(std::move(listener)), buffer_(ros::Duration(kTfMemory)) {
+  using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
+  const auto no_delay = ros::TransportHints().tcpNoDelay();
+  tf_ = node.subscribe<tf2_msgs::TFMessage>(
+      "/tf", kTfQueue,
+      boost::function<void(const Event&)>([this](const Event& event) { take(event, false); }),
+      ros::VoidConstPtr(), no_delay);
+  tf_static_ = node.subscribe<tf2_msgs::TFMessage>(
+      "/tf_static", kTfQueue,
+      boost::function<void(const Event&)>([this](const Event& event) { take(event, true); }));
+}
+
+void TfWatch::take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static) {
+  const std::string& publisher = event.getPublisherName();
+  const bool is_own = publisher == ros::this_node::getName();
+  std::vector<geometry_msgs::TransformStamped> taken;
+  for (const auto& transform : event.getMessage()->transforms) {
+    const std::string child = withoutSlash(transform.child_frame_id);
+    const auto owned = owned_.find(child);
+    if (!is_own && owned != owned_.end() && conflict_.empty()) {
+      conflict_ = publisher + " publishes the tf frame " + child + "; or set ~" + owned->second +
+                  ":=none if the localizer publishes " + child + " itself";
+    }
+    try {
+      buffer_.setTransform(transform, publisher, is_static);
+    } catch (const tf2::TransformException&) {
+      continue;  // a transform that tf refuses is no answer
+    }
+    if (!is_own) taken.push_back(transform);
+  }
+  // After all of them, since one may need another.
+  for (const auto& transform : taken) listener_(transform);
+}
+
+std::optional<Transform> TfWatch::find(const std::string& target, const std::string& frame,
+                                       const ros::Time& stamp) const {
+  try {
+    return fromMessage(buffer_.lookupTransform(target, frame, stamp).transform);
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace pcrb

@@ -1,0 +1,184 @@
+#include "bridge/robot_inputs.hpp"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Imu.h>
+
+#include <iterator>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/pcd.hpp"
+#include "pcrb_server/message_conversion.hpp"
+
+namespace pcrb {
+
+namespace {
+
+constexpr double kGravity = 9.80665;  // m/s²
+constexpr std::uint32_t kMotionQueue = 100;
+const ros::Duration kLongestGap(1.0);  // of odometry and IMU that is made up for
+
+/// With intensity, 0 where it is unknown: some nodes warn or fail without the field.
+PointCloud withIntensity(PointCloud cloud) {
+  cloud.intensity.resize(cloud.points.size(), 0.0f);
+  return cloud;
+}
+
+/// A node that reads another run's map localizes well, in the wrong place.
+void requireMapFileAlone(const std::string& path, std::optional<FileLock>& lock) {
+  lock.emplace(path + ".lock");
+  if (lock->isHeld()) return;
+  throw Error("~map_file: found `" + path + "` in use by " + lock->holder() +
+              ", expected a file of this run's own, such as ${TMPDIR}/map.pcd");
+}
+
+void writeMapFile(const std::string& path, const PointCloud& map) {
+  DatasetCloud cloud;
+  cloud.points.reserve(map.size());
+  for (const auto& point : map.points) cloud.points.push_back(point.cast<double>());
+  writePcd(path, cloud);
+}
+
+/// The entries whose keys are among some names.
+template <typename Names>
+std::map<std::string, int> withNames(std::map<std::string, int> entries, const Names& names) {
+  for (auto entry = entries.begin(); entry != entries.end();) {
+    entry = names.count(entry->first) > 0 ? std::next(entry) : entries.erase(entry);
+  }
+  return entries;
+}
+
+template <typename Message>
+ros::Publisher advertise(ros::NodeHandle& node, const std::string& topic, SubscriberNames& names,
+                         bool is_latched) {
+  return node.advertise<Message>(topic, 1, names.joined(), names.left(), ros::VoidPtr(),
+                                 is_latched);
+}
+
+nav_msgs::Odometry standstill(const BridgeParameters& parameters) {
+  nav_msgs::Odometry odometry;
+  odometry.header.frame_id = parameters.odom_frame;
+  odometry.child_frame_id = parameters.base_frame;
+  odometry.pose.pose.orientation.w = 1.0;
+  for (std::size_t i = 0; i < 36; i += 7) {
+    odometry.pose.covariance[i] = 1e-6;
+    odometry.twist.covariance[i] = 1e-6;
+  }
+  return odometry;
+}
+
+sensor_msgs::Imu gravityOnly(const BridgeParameters& parameters) {
+  sensor_msgs::Imu imu;
+  imu.header.frame_id = parameters.base_frame;
+  imu.orientation.w = 1.0;
+  imu.orientation_covariance[0] = -1.0;  // orientation is not measured
+  imu.linear_acceleration.z = kGravity;
+  for (std::size_t i = 0; i < 9; i += 4) {
+    imu.angular_velocity_covariance[i] = 1e-6;
+    imu.linear_acceleration_covariance[i] = 1e-4;
+  }
+  return imu;
+}
+
+}  // namespace
+
+RobotInputs::RobotInputs(ros::NodeHandle& node, const BridgeParameters& parameters)
+    : parameters_(parameters),
+      links_(parameters),
+      clock_(parameters.has_even_stamps),
+      map_listeners_(parameters.observers),
+      scan_listeners_(parameters.observers),
+      initial_pose_listeners_(parameters.observers) {
+  if (!parameters.map_file.empty()) requireMapFileAlone(parameters.map_file, map_file_lock_);
+  map_ = advertise<sensor_msgs::PointCloud2>(node, parameters.map_topic, map_listeners_, true);
+  scan_ = advertise<sensor_msgs::PointCloud2>(node, parameters.scan_topic, scan_listeners_, false);
+  initial_pose_ = advertise<geometry_msgs::PoseWithCovarianceStamped>(
+      node, parameters.initialpose_topic, initial_pose_listeners_, false);
+  imu_.period = ros::Duration(1.0 / parameters.imu_rate);
+  odometry_.period = ros::Duration(1.0 / parameters.odometry_rate);
+  if (!parameters.imu_topic.empty()) {
+    imu_.publisher = node.advertise<sensor_msgs::Imu>(parameters.imu_topic, kMotionQueue);
+  }
+  if (!parameters.odometry_topic.empty()) {
+    odometry_.publisher =
+        node.advertise<nav_msgs::Odometry>(parameters.odometry_topic, kMotionQueue);
+  }
+}
+
+std::map<std::string, int> RobotInputs::departures() const {
+  const auto takers = scan_listeners_.departures();
+  const auto others = initial_pose_listeners_.departures();
+  auto nodes = withNames(takers, others);
+  return nodes.empty() ? takers : nodes;
+}
+
+std::map<std::string, int> RobotInputs::nodes() const {
+  return withNames(departures(), scan_listeners_.names());
+}
+
+std::set<std::string> RobotInputs::allNodes() const {
+  std::set<std::string> nodes = scan_listeners_.names();
+  nodes.merge(map_listeners_.names());
+  nodes.merge(initial_pose_listeners_.names());
+  return nodes;
+}
+
+void RobotInputs::sendStaticLinks() { links_.sendStatic(now()); }
+
+void RobotInputs::sendMap(const PointCloud& map) {
+  if (!parameters_.map_file.empty()) writeMapFile(parameters_.map_file, map);
+  map_.publish(toMessage(withIntensity(map), Transform::Identity(),
+                         makeHeader(parameters_.map_frame, now())));
+}
+
+void RobotInputs::sendInitialPose(const Transform& T_map_body) {
+  geometry_msgs::PoseWithCovarianceStamped message;
+  message.header = makeHeader(parameters_.map_frame, now());
+  message.pose.pose = toMessage(T_map_body);
+  const double position = parameters_.initialpose_translation;
+  const double angle = parameters_.initialpose_rotation;
+  for (const std::size_t i : {0U, 1U}) message.pose.covariance[7 * i] = position * position;
+  message.pose.covariance[35] = angle * angle;
+  if (parameters_.has_6dof_covariance) {
+    message.pose.covariance[14] = position * position;
+    for (const std::size_t i : {3U, 4U}) message.pose.covariance[7 * i] = angle * angle;
+  }
+  initial_pose_.publish(message);
+}
+
+void RobotInputs::setScan(const PointCloud& cloud, const Transform& T) {
+  scan_message_ =
+      toMessage(withIntensity(cloud), T, makeHeader(parameters_.scan_frame, ros::Time()));
+}
+
+std::int64_t RobotInputs::sendScan(bool is_first_of_problem) {
+  const std::int64_t time = toNanoseconds(ros::Time::now());
+  const std::int64_t stamp = is_first_of_problem
+                                 ? clock_.now(time)
+                                 : clock_.next(time, toNanoseconds(parameters_.scans.period));
+  links_.sendDynamic(toTime(stamp));
+  sendMotion(toTime(stamp));
+  scan_message_.header.stamp = toTime(stamp);
+  scan_.publish(scan_message_);
+  return stamp;
+}
+
+template <typename Message>
+void RobotInputs::send(Stream& stream, Message message, const ros::Time& until) {
+  if (!stream.publisher) return;
+  if (stream.last + kLongestGap < until) stream.last = until - stream.period;
+  while (stream.last + stream.period <= until) {
+    stream.last += stream.period;
+    message.header.stamp = stream.last;
+    stream.publisher.publish(message);
+  }
+}
+
+void RobotInputs::sendMotion() { sendMotion(now()); }
+
+void RobotInputs::sendMotion(const ros::Time& until) {
+  send(imu_, gravityOnly(parameters_), until);
+  send(odometry_, standstill(parameters_), until);
+}
+
+}  // namespace pcrb

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <std_msgs/Header.h>
+#include <visualization_msgs/Marker.h>
+
+#include <string>
+
+#include "pcrb_core/evaluation/result.hpp"
+#include "pcrb_core/point_cloud.hpp"
+
+namespace pcrb {
+
+/// Where people look, wherever the local origin is: the middle of the cloud's bounding box, in
+/// whole metres. Not its centroid, which is the secret pose of a scan without a viewpoint when the
+/// same cloud is another problem's source. The origin for an empty cloud.
+Eigen::Vector3d boxCenter(const PointCloud& cloud);
+
+/// Text above a position (m, in the header's frame) that always faces the viewer; of a size for the
+/// distance from which the rviz configurations look, whatever the extent of the clouds.
+visualization_msgs::Marker textMarker(const std_msgs::Header& header,
+                                      const Eigen::Vector3d& position, const std::string& text);
+
+/// E.g. `error 0.0123 (initial 0.2)`; a second line says so where there was no valid reply.
+std::string errorText(const Result& result);
+
+}  // namespace pcrb

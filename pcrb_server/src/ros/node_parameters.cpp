@@ -1,0 +1,223 @@
+#include "pcrb_server/node_parameters.hpp"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb {
+
+namespace {
+
+std::string describe(XmlRpc::XmlRpcValue value) {
+  std::ostringstream text;
+  text << '`';
+  value.write(text);
+  text << '`';
+  return text.str();
+}
+
+/// A text parameter. roslaunch and rosrun turn a folder named 2026 or 1.5 into a number, which is
+/// taken back here; needless zeros are lost, unless a launch file gives the parameter type="str".
+std::optional<std::string> textOf(XmlRpc::XmlRpcValue& value) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return std::string(value);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return std::to_string(int(value));
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) return formatShortest(double(value));
+  return std::nullopt;
+}
+
+template <typename T>
+std::string range(T min, T max) {
+  std::ostringstream text;
+  text << "from " << min << " to " << max;
+  return text.str();
+}
+
+}  // namespace
+
+NodeParameters::NodeParameters() : node_("~") {}
+
+NodeParameters::NodeParameters(ParameterTable table) : table_(std::move(table)), node_("~") {}
+
+const NodeParameter& NodeParameters::entryOf(const std::string& name) const {
+  const NodeParameter* const entry = findParameter(table_, name);
+  if (entry == nullptr) throw std::logic_error("~" + name + " is in no table of parameters");
+  return *entry;
+}
+
+std::string NodeParameters::fallbackOf(const std::string& name) const {
+  const std::string& fallback = entryOf(name).fallback;
+  return fallback == kRequired ? "" : fallback;
+}
+
+/// Notes a mistake for a value that must be given and is empty, unless reading it was one already.
+void NodeParameters::requireValue(const std::string& name, bool is_empty, std::size_t mistakes) {
+  const bool is_missed = is_empty && entryOf(name).fallback == kRequired;
+  if (is_missed && mistakes_.size() == mistakes) addMistake("~" + name + ": must be given");
+}
+
+std::string NodeParameters::string(const std::string& name) {
+  const std::size_t mistakes = mistakes_.size();
+  const std::string value = string(name, fallbackOf(name));
+  requireValue(name, value.empty(), mistakes);
+  return value;
+}
+
+std::string NodeParameters::path(const std::string& name) {
+  const std::string value = string(name);
+  checkPath(name, value);
+  return value;
+}
+
+std::string NodeParameters::choice(const std::string& name) {
+  return choice(name, fallbackOf(name), choicesOf(entryOf(name)));
+}
+
+bool NodeParameters::boolean(const std::string& name) {
+  return boolean(name, fallbackOf(name) == "true");
+}
+
+int NodeParameters::integer(const std::string& name, int min, int max) {
+  return integer(name, static_cast<int>(parseInt(fallbackOf(name)).value_or(min)), min, max);
+}
+
+double NodeParameters::number(const std::string& name, double min, double max) {
+  return number(name, parseDouble(fallbackOf(name)).value_or(min), min, max);
+}
+
+std::vector<std::string> NodeParameters::words(const std::string& name) {
+  const std::size_t mistakes = mistakes_.size();
+  const auto list = words(name, fallbackOf(name));
+  requireValue(name, list.empty(), mistakes);
+  return list;
+}
+
+bool NodeParameters::find(const std::string& name, XmlRpc::XmlRpcValue& value) {
+  asked_.insert(name);
+  return node_.getParam(name, value);
+}
+
+void NodeParameters::mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
+                             const std::string& expected) {
+  addMistake("~" + name + ": found " + describe(found) + ", expected " + expected);
+}
+
+std::string NodeParameters::string(const std::string& name, const std::string& fallback) {
+  XmlRpc::XmlRpcValue value;
+  if (!find(name, value)) return fallback;
+  if (const auto text = textOf(value)) return *text;
+  mistake(name, value, "text");
+  return fallback;
+}
+
+std::string NodeParameters::requiredString(const std::string& name) {
+  const std::size_t before = mistakes_.size();
+  const std::string value = string(name, "");
+  if (value.empty() && mistakes_.size() == before) addMistake("~" + name + ": must be given");
+  return value;
+}
+
+std::string NodeParameters::path(const std::string& name, const std::string& fallback) {
+  const std::string value = string(name, fallback);
+  checkPath(name, value);
+  return value;
+}
+
+std::string NodeParameters::requiredPath(const std::string& name) {
+  const std::string value = requiredString(name);
+  checkPath(name, value);
+  return value;
+}
+
+void NodeParameters::checkPath(const std::string& name, const std::string& value) {
+  const std::string mistake = relativePathMistake(name, value);
+  if (!mistake.empty()) addMistake("~" + name + ": " + mistake);
+}
+
+std::string NodeParameters::choice(const std::string& name, const std::string& fallback,
+                                   const std::vector<std::string>& choices) {
+  const std::string value = string(name, fallback);
+  std::string list;
+  for (const auto& choice : choices) {
+    if (choice == value) return value;
+    list += (list.empty() ? "`" : " or `") + choice + '`';
+  }
+  mistake(name, value, list);
+  return fallback;
+}
+
+bool NodeParameters::boolean(const std::string& name, bool fallback) {
+  XmlRpc::XmlRpcValue value;
+  if (!find(name, value)) return fallback;
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeBoolean) return value;
+  mistake(name, value, "true or false");
+  return fallback;
+}
+
+int NodeParameters::integer(const std::string& name, int fallback, int min, int max) {
+  XmlRpc::XmlRpcValue value;
+  if (!find(name, value)) return fallback;
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) {
+    const int number = value;
+    if (number >= min && number <= max) return number;
+  }
+  mistake(name, value, "a whole number " + range(min, max));
+  return fallback;
+}
+
+double NodeParameters::number(const std::string& name, double fallback, double min, double max) {
+  XmlRpc::XmlRpcValue value;
+  if (!find(name, value)) return fallback;
+  double number = NAN;
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) number = int(value);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) number = value;
+  if (number >= min && number <= max) return number;
+  mistake(name, value, "a number " + range(min, max));
+  return fallback;
+}
+
+std::vector<std::string> NodeParameters::words(const std::string& name,
+                                               const std::string& fallback) {
+  XmlRpc::XmlRpcValue value;
+  if (!find(name, value)) return splitWords(fallback);
+  if (const auto text = textOf(value)) return splitWords(*text);
+  std::vector<std::string> words;
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeArray) {
+    for (int i = 0; i < value.size(); ++i) {
+      if (value[i].getType() == XmlRpc::XmlRpcValue::TypeString) words.push_back(value[i]);
+    }
+    if (static_cast<int>(words.size()) == value.size()) return words;
+  }
+  mistake(name, value, "a list of words");
+  return splitWords(fallback);
+}
+
+void NodeParameters::check(const std::function<void()>& statement) {
+  try {
+    statement();
+  } catch (const Error& error) {
+    addMistake(error.what());
+  }
+}
+
+void NodeParameters::finish() {
+  std::vector<std::string> names;
+  node_.getParamNames(names);
+  const std::string prefix = node_.getNamespace() + "/";
+  for (const auto& name : names) {
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string rest = name.substr(prefix.size());
+    const std::string key = rest.substr(0, rest.find('/'));
+    if (asked_.insert(key).second) addMistake("~" + key + ": no parameter of this node");
+  }
+  if (mistakes_.empty()) return;
+  std::string message = std::to_string(mistakes_.size()) +
+                        (mistakes_.size() == 1 ? " mistake" : " mistakes") + " in the parameters";
+  for (const auto& mistake : mistakes_) message += "\n  " + mistake;
+  throw InvalidParameter(message);
+}
+
+}  // namespace pcrb

@@ -1,0 +1,133 @@
+#include "pcrb_server/parameter_table.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <regex>
+#include <sstream>
+
+#include "pcrb_core/error.hpp"
+
+namespace pcrb {
+
+namespace {
+
+constexpr std::size_t kHelpColumn = 36;
+constexpr std::size_t kHelpWidth = 100;
+
+/// `a, b or c`.
+std::string alternatives(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+/// Name, default and unit.
+std::string signatureOf(const NodeParameter& parameter) {
+  std::string text = "  " + parameter.name + " (" + parameter.fallback;
+  const bool has_unit = !parameter.unit.empty() && choicesOf(parameter).empty();
+  if (has_unit) text += (parameter.fallback.empty() ? "" : " ") + parameter.unit;
+  return text + ")";
+}
+
+/// Text in a column of its own, beside what stands to the left of its first line.
+std::string inColumn(const std::string& left, const std::string& text) {
+  std::string lines;
+  std::string line = left;
+  if (line.size() + 2 > kHelpColumn) {
+    lines = line + "\n";
+    line.clear();
+  }
+  line.resize(kHelpColumn, ' ');
+  std::istringstream stream(text);
+  bool is_first = true;
+  for (std::string word; stream >> word; is_first = false) {
+    if (!is_first && line.size() + 1 + word.size() > kHelpWidth) {
+      lines += line + "\n";
+      line.assign(kHelpColumn, ' ');
+      is_first = true;
+    }
+    line += (is_first ? "" : " ") + word;
+  }
+  return lines + line + "\n";
+}
+
+}  // namespace
+
+std::string formatParameters(const ParameterTable& table) {
+  std::string text;
+  for (const auto& parameter : table) {
+    if (parameter.name.empty()) {
+      text += parameter.help + ":\n";
+      continue;
+    }
+    const std::string words = alternatives(choicesOf(parameter));
+    text += inColumn(signatureOf(parameter), parameter.help + (words.empty() ? "" : ": " + words));
+  }
+  return text;
+}
+
+const NodeParameter* findParameter(const ParameterTable& table, const std::string& name) {
+  const auto found = std::find_if(table.begin(), table.end(), [&name](const auto& parameter) {
+    return !name.empty() && parameter.name == name;
+  });
+  return found == table.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> splitWords(const std::string& text) {
+  std::vector<std::string> words;
+  std::string word;
+  for (const char c : text + " ") {
+    if (c != ' ' && c != ',' && c != '\t' && c != '\n') {
+      word += c;
+    } else if (!word.empty()) {
+      words.push_back(word);
+      word.clear();
+    }
+  }
+  return words;
+}
+
+std::vector<std::string> choicesOf(const NodeParameter& parameter) {
+  if (parameter.unit.find('|') == std::string::npos) return {};
+  std::vector<std::string> words;
+  std::istringstream stream(parameter.unit);
+  for (std::string word; std::getline(stream, word, '|');) words.push_back(word);
+  return words;
+}
+
+std::string relativePathMistake(const std::string& argument, const std::string& path) {
+  if (path.empty() || path.front() == '/') return "";
+  return "found `" + path +
+         "`, expected an absolute path: roslaunch starts programs in another folder; write " +
+         argument + ":=$PWD/" + path;
+}
+
+// wordexp() of glibc 2.36 takes ${NAME:-other} for an error where unset names are one.
+std::string expandVariables(const std::string& name, const std::string& text) {
+  static const std::regex kVariable(R"(^\$(?:(\w+)|\{(\w+)(?::-([^}]*))?\}))");
+  std::string expanded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '$') {
+      expanded += text[i];
+      continue;
+    }
+    const std::string rest = text.substr(i);
+    std::smatch found;
+    const bool is_variable = std::regex_search(rest, found, kVariable);
+    const char* value =
+        is_variable ? std::getenv((found[1].str() + found[2].str()).c_str()) : nullptr;
+    if (value == nullptr && !(is_variable && found[3].matched)) {
+      throw InvalidParameter(name + ": found `" + rest + "`" +
+                             (is_variable ? ", which is not set" : "") +
+                             ", expected variables of the environment such as ${TMPDIR:-/tmp}");
+    }
+    expanded += value != nullptr ? std::string(value) : found[3].str();
+    i += static_cast<std::size_t>(found.length()) - 1;
+  }
+  return expanded;
+}
+
+}  // namespace pcrb

@@ -1,0 +1,119 @@
+#include "ros/topic_peers.hpp"
+
+#include <ros/master.h>
+#include <ros/this_node.h>
+
+#include <algorithm>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include "pcrb_core/error.hpp"
+
+namespace pcrb {
+
+namespace {
+
+bool beginsWith(const std::string& text, const std::string& prefix) {
+  return text.rfind(prefix, 0) == 0;
+}
+
+std::vector<std::string> wordsOf(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+}  // namespace
+
+SubscriberNames::SubscriberNames() : SubscriberNames(wordsOf(kObservers)) {}
+
+SubscriberNames::SubscriberNames(std::vector<std::string> observers)
+    : observers_(std::move(observers)) {}
+
+bool SubscriberNames::isObserver(const std::string& node) const {
+  const std::string name = node.substr(node.rfind('/') + 1);
+  for (const auto& observer : observers_) {
+    if (beginsWith(name, observer)) return true;
+  }
+  for (const std::string prefix : {"record_", "play_"}) {  // rosbag's, which end with a time
+    const bool is_bag = beginsWith(name, prefix) && name.size() > prefix.size() &&
+                        name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+    if (is_bag) return true;
+  }
+  return false;
+}
+
+ros::SubscriberStatusCallback SubscriberNames::joined() {
+  return [this](const ros::SingleSubscriberPublisher& subscriber) {
+    const std::string name = subscriber.getSubscriberName();
+    if (isObserver(name)) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    names_.insert(name);
+    departures_.emplace(name, 0);
+  };
+}
+
+ros::SubscriberStatusCallback SubscriberNames::left() {
+  return [this](const ros::SingleSubscriberPublisher& subscriber) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = names_.find(subscriber.getSubscriberName());
+    if (found == names_.end()) return;
+    ++departures_[*found];
+    names_.erase(found);
+  };
+}
+
+std::set<std::string> SubscriberNames::names() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {names_.begin(), names_.end()};
+}
+
+std::map<std::string, int> SubscriberNames::departures() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return departures_;
+}
+
+PublishersByTopic publishersByTopic() {
+  XmlRpc::XmlRpcValue arguments, response, state;
+  arguments[0] = ros::this_node::getName();
+  if (!ros::master::execute("getSystemState", arguments, response, state, false)) {
+    throw Error("the ROS master does not answer");
+  }
+  PublishersByTopic publishers;
+  XmlRpc::XmlRpcValue topics = state[0];  // [[topic, [node, …]], …]
+  for (int i = 0; i < topics.size(); ++i) {
+    for (int k = 0; k < topics[i][1].size(); ++k) {
+      publishers.emplace(std::string(topics[i][0]), std::string(topics[i][1][k]));
+    }
+  }
+  return publishers;
+}
+
+ConflictingPublishers::ConflictingPublishers(std::string self, std::vector<std::string> owned,
+                                             std::string initialpose, IsObserver is_observer)
+    : self_(std::move(self)),
+      owned_(std::move(owned)),
+      initialpose_(std::move(initialpose)),
+      is_observer_(std::move(is_observer)) {}
+
+bool ConflictingPublishers::isAllowed(const std::string& node, const std::string& topic) {
+  if (node == self_) return true;
+  const bool is_initialpose = topic == initialpose_;
+  if (!is_initialpose) return std::find(owned_.begin(), owned_.end(), topic) == owned_.end();
+  if (is_observer_(node)) return true;
+  if (has_begun_ && warned_.insert(node).second) {
+    std::cout << "warning: " << node << " advertises " << topic
+              << ": a pose from it would spoil the problem in flight" << std::endl;
+  }
+  return has_begun_;
+}
+
+std::vector<std::string> ConflictingPublishers::find(const PublishersByTopic& publishers) {
+  std::vector<std::string> conflicts;
+  for (const auto& [topic, node] : publishers) {
+    if (!isAllowed(node, topic)) conflicts.push_back(node + " publishes " + topic);
+  }
+  return conflicts;
+}
+
+}  // namespace pcrb

@@ -1,0 +1,123 @@
+#include "pcrb_server/message_conversion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "pcrb_core/error.hpp"
+
+namespace pcrb {
+namespace {
+
+PointCloud threePoints() {
+  PointCloud cloud;
+  cloud.points = {{1.0f, 2.0f, 3.0f}, {-4.5f, 0.25f, 100.0f}, {0.0f, 0.0f, 0.0f}};
+  return cloud;
+}
+
+TEST(MessageConversion, ACloudSurvivesItsMessage) {
+  PointCloud cloud = threePoints();
+  EXPECT_EQ(fromMessage(toMessage(cloud, Transform::Identity(), {})).points, cloud.points);
+  cloud.intensity = {0.5f, -1.0f, 7.0f};
+  const PointCloud again = fromMessage(toMessage(cloud, Transform::Identity(), {}));
+  EXPECT_EQ(again.points, cloud.points);
+  EXPECT_EQ(again.intensity, cloud.intensity);
+}
+
+TEST(MessageConversion, MovesPointsByTheTransform) {
+  const Transform T = makeTransform({1, 2, 3}, Eigen::Quaterniond(0, 0, 0, 1));  // half a turn
+  const PointCloud moved = fromMessage(toMessage(threePoints(), T, {}));
+  EXPECT_LT((moved.points[0] - Eigen::Vector3f(0, 0, 6)).norm(), 1e-6f);
+}
+
+TEST(MessageConversion, ReadsOrganizedCloudsWithPaddingDoublesAndNoRowStep) {
+  sensor_msgs::PointCloud2 message;
+  message.height = 2;
+  message.width = 1;
+  message.point_step = 32;
+  message.data.resize(64);
+  for (int i = 0; i < 3; ++i) {
+    sensor_msgs::PointField field;
+    field.name = std::string(1, static_cast<char>('x' + i));
+    field.offset = static_cast<std::uint32_t>(8 * i);
+    field.datatype = sensor_msgs::PointField::FLOAT64;
+    field.count = 1;
+    message.fields.push_back(field);
+    const double value = i + 0.5;
+    std::memcpy(message.data.data() + 8 * i, &value, 8);
+    const double nan = std::nan("");
+    std::memcpy(message.data.data() + 32 + 8 * i, &nan, 8);
+  }
+  const PointCloud cloud = fromMessage(message);
+  ASSERT_EQ(cloud.size(), 1u);  // the NaN is no point
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3f(0.5f, 1.5f, 2.5f));
+}
+
+TEST(MessageConversion, RejectsMessagesThatDoNotHoldWhatTheySay) {
+  const sensor_msgs::PointCloud2 good = toMessage(threePoints(), Transform::Identity(), {});
+  sensor_msgs::PointCloud2 message = good;
+  message.width = 4;
+  EXPECT_THROW(fromMessage(message), InvalidProblem);
+  message = good;
+  message.fields.pop_back();
+  EXPECT_THROW(fromMessage(message), InvalidProblem);
+  message = good;
+  message.fields[2].offset = 9;
+  EXPECT_THROW(fromMessage(message), InvalidProblem);
+  message = good;
+  message.fields[0].datatype = sensor_msgs::PointField::INT32;
+  EXPECT_THROW(fromMessage(message), InvalidProblem);
+  message = good;
+  message.is_bigendian = 1;
+  EXPECT_THROW(fromMessage(message), InvalidProblem);
+  EXPECT_THROW(fromMessage(sensor_msgs::PointCloud2()), InvalidProblem);
+}
+
+TEST(MessageConversion, APoseSurvivesItsMessage) {
+  const Transform T = makeTransform({1, -2, 3}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5));
+  EXPECT_TRUE(fromMessage(toMessage(T)).isApprox(T, 1e-15));
+  EXPECT_THROW(fromMessage(geometry_msgs::Pose()), InvalidProblem);
+}
+
+Transform pose(double x, double y, double z, double yaw) {
+  return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+}
+
+TEST(PoseCovariance, ATurnOfTheBodyMovesASensorThatIsMountedAwayFromIt) {
+  PoseCovariance body{};
+  body[0] = 0.01;   // x
+  body[35] = 0.04;  // yaw
+  const auto sensor = mountedCovariance(body, pose(5, 5, 0, 0), pose(3, 0, 1, 0));
+  EXPECT_NEAR(sensor[0], 0.01, 1e-12);
+  EXPECT_NEAR(sensor[7], 0.04 * 9, 1e-12);      // y: 3 m ahead of the axis of the yaw
+  EXPECT_NEAR(sensor[6 + 5], 0.04 * 3, 1e-12);  // y with yaw
+  EXPECT_NEAR(sensor[35], 0.04, 1e-12);
+}
+
+TEST(PoseCovariance, ACovarianceMovedToAMountedFrameAndBackIsTheSame) {
+  PoseCovariance sensor{};
+  for (std::size_t i = 0; i < 6; ++i) sensor[7 * i] = 1e-4 * static_cast<double>(i + 1);
+  const Transform T_map_sensor = pose(1, 0, 1.9, 0.3);
+  const Transform E = pose(0.4, 0, 1.9, M_PI);
+  const auto body = mountedCovariance(sensor, T_map_sensor, E.inverse());
+  const auto again = mountedCovariance(body, T_map_sensor * E.inverse(), E);
+  for (std::size_t i = 0; i < 36; ++i) EXPECT_NEAR(again[i], sensor[i], 1e-15);
+  EXPECT_GT(body[0], 1e-3);
+}
+
+TEST(PoseCovariance, ATurnedParentExchangesTheAxesOfBothBlocksOfACovariance) {
+  PoseCovariance odom{};
+  for (std::size_t i = 0; i < 6; ++i) odom[7 * i] = static_cast<double>(i + 1);
+  odom[5] = odom[30] = 0.5;  // x with yaw
+  const auto map = rotatedCovariance(odom, pose(7, 8, 9, M_PI / 2).linear());
+  EXPECT_NEAR(map[0], 2, 1e-12);
+  EXPECT_NEAR(map[7], 1, 1e-12);
+  EXPECT_NEAR(map[21], 5, 1e-12);
+  EXPECT_NEAR(map[28], 4, 1e-12);
+  EXPECT_NEAR(map[35], 6, 1e-12);
+  EXPECT_NEAR(map[6 + 5], 0.5, 1e-12);  // y with yaw
+}
+
+}  // namespace
+}  // namespace pcrb
