@@ -10,7 +10,7 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pcrb_testing import Launch, rows, wait_until
+from pcrb_testing import Child, Launch, executable, rows, wait_until
 from pcrb_testing_bridge import BridgeTestCase
 
 NODE = '/ndt_localizer'
@@ -100,6 +100,15 @@ class SupervisorTest(BridgeTestCase):
         self.assertEqual(launch.output().count('no_such.launch] is neither'), 3, launch.output())
         self.assertIn('ended 3 times as soon as it was started', launch.output())
         self.assertEqual(rows(self.path('run')), [])
+
+    def test_it_does_not_outlive_the_process_that_started_it(self):
+        rospy.set_param('/orphan/node_supervisor', {'launch': 'localization_standins ndt_localizer.launch'})
+        supervisor = executable('pcrb_server', 'node_supervisor')
+        shell = self.start(Child(['sh', '-c', f'{supervisor} & wait'], '/orphan'))
+        wait_until(node_process, 'the node is there')
+        shell.process.kill()
+        wait_until(lambda: 'the process that started node_supervisor has ended' in shell.output(), 'it says so')
+        wait_until(lambda: node_process() is None, 'the node is gone')
 
 
 if __name__ == '__main__':

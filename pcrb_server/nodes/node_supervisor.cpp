@@ -4,24 +4,20 @@
 
 namespace {
 
-const pcrb::NodeHelp kHelp{"node_supervisor",
-                           "Runs a launch file as a child and starts it anew when it dies or when "
-                           "localization_bridge asks for that.",
-                           R"(Private parameters (default):
-  launch            the launch file, or its package and its name, separated by a blank
-  args ('')         its arguments, name=value, separated by blanks; $NAME and ${NAME:-other} are
-                    variables of the environment
-  autostart (true)  false: start it only when asked for it
-
-Service: ~restart (std_srvs/Trigger) ends the child and all that it started (SIGINT, 5 s later SIGTERM,
+const pcrb::NodeHelp kHelp{
+    "node_supervisor",
+    "Runs a launch file as a child and starts it anew when it dies or when "
+    "localization_bridge asks for that.",
+    R"(Service: ~restart (std_srvs/Trigger) ends the child and all that it started (SIGINT, 5 s later SIGTERM,
 2 s later SIGKILL), then starts it. A child that ends by itself is started anew; one that does so within
 10 s three times in a row, without a result of the server between, is an error. It runs outside the
-supervisor's namespace.)"};
+supervisor's namespace. The supervisor ends with the process that started it, as when roslaunch is killed.)",
+    pcrb::kSupervisorParameters};
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownNotice& shutdown) {
+  return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownRequest& shutdown) {
     pcrb::NodeSupervisor(pcrb::readSupervisorParameters(), shutdown).run();
     return 0;
   });

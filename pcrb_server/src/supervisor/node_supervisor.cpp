@@ -1,12 +1,12 @@
 #include "supervisor/node_supervisor.hpp"
 
 #include <pcrb_msgs/Result.h>
+#include <unistd.h>
 
 #include <iostream>
 #include <thread>
 #include <utility>
 
-#include "expand_variables.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/node_parameters.hpp"
 #include "pcrb_server/topics.hpp"
@@ -28,32 +28,42 @@ std::string launchArgument(std::string word) {
 
 }  // namespace
 
+const ParameterTable kSupervisorParameters{
+    {"launch", kRequired, "", "launch file, or its package and its name, separated by a blank"},
+    {"args", "", "",
+     "arguments of the launch file, name=value, separated by blanks; $NAME and ${NAME:-other} are "
+     "variables of the environment"},
+    {"autostart", "true", "", "start at once; false: only on request"}};
+
 SupervisorParameters readSupervisorParameters() {
-  NodeParameters reader;
+  NodeParameters reader(kSupervisorParameters);
   SupervisorParameters parameters;
   parameters.command = {"roslaunch", "--wait"};
-  const auto launch = reader.words("launch", "");
-  if (launch.empty() || launch.size() > 2) {
+  const auto launch = reader.words("launch");
+  if (launch.size() > 2) {
     reader.addMistake("~launch: expected a launch file, or a package and its launch file");
   }
   const std::string mistake =
       launch.size() == 1 ? relativePathMistake("node_launch", launch.front()) : "";
   if (!mistake.empty()) reader.addMistake("~launch: " + mistake + ", or a package and its file");
   parameters.command.insert(parameters.command.end(), launch.begin(), launch.end());
-  for (const auto& word : reader.words("args", "")) {
+  for (const auto& word : reader.words("args")) {
     reader.check(
         [&] { parameters.command.push_back(expandVariables("~args", launchArgument(word))); });
     if (word.find('=') == std::string::npos) {
       reader.addMistake("~args: found `" + word + "`, expected name=value");
     }
   }
-  parameters.autostart = reader.boolean("autostart", true);
+  parameters.autostart = reader.boolean("autostart");
   reader.finish();
   return parameters;
 }
 
-NodeSupervisor::NodeSupervisor(const SupervisorParameters& parameters, ShutdownNotice& shutdown)
-    : command_(parameters.command), shutdown_(shutdown), is_wanted_(parameters.autostart) {
+NodeSupervisor::NodeSupervisor(const SupervisorParameters& parameters, ShutdownRequest& shutdown)
+    : command_(parameters.command),
+      shutdown_(shutdown),
+      parent_(getppid()),
+      is_wanted_(parameters.autostart) {
   service_ = offerTrigger(node_, "restart", [this] { return restart(); });
   results_ = ros::NodeHandle().subscribe<pcrb_msgs::Result>(
       topics::kResult, 1, [this](const pcrb_msgs::ResultConstPtr&) {
@@ -130,6 +140,11 @@ void NodeSupervisor::run() {
       changed_.wait_for(lock, kPollPeriod, is_due);
       if (is_over_) break;
       is_requested = is_requested_;
+    }
+    if (getppid() != parent_) {
+      std::cout << "the process that started node_supervisor has ended, and so does this"
+                << std::endl;
+      break;
     }
     if (is_requested) {
       answerRequest();

@@ -4,6 +4,7 @@
 #include <ros/service_server.h>
 #include <ros/spinner.h>
 #include <ros/subscriber.h>
+#include <sys/types.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -11,8 +12,8 @@
 #include <string>
 
 #include "pcrb_server/node_main.hpp"
+#include "ros/node_calls.hpp"
 #include "supervisor/supervised_command.hpp"
-#include "trigger_service.hpp"
 
 namespace pcrb {
 
@@ -22,16 +23,18 @@ struct SupervisorParameters {
   bool autostart = true;
 };
 
+extern const ParameterTable kSupervisorParameters;
+
 /// @throws InvalidParameter  listing every mistake.
 SupervisorParameters readSupervisorParameters();
 
-/// Runs a user's launch file as a child, and starts it anew when it dies or somebody asks for that.
+/// Runs a user's launch file as a child, and starts it anew when it dies or on request.
 class NodeSupervisor {
  public:
-  NodeSupervisor(const SupervisorParameters& parameters, ShutdownNotice& shutdown);
+  NodeSupervisor(const SupervisorParameters& parameters, ShutdownRequest& shutdown);
   ~NodeSupervisor();
 
-  /// Until the shutdown; ends the child.
+  /// Until the shutdown or the end of the process that started this one; ends the child.
   /// @throws Error  if the child keeps dying as soon as it is started, and no problem ends
   /// meanwhile.
   void run();
@@ -44,7 +47,8 @@ class NodeSupervisor {
   bool takeResult();
 
   SupervisedCommand command_;
-  ShutdownNotice& shutdown_;
+  ShutdownRequest& shutdown_;
+  const pid_t parent_;    ///< roslaunch, which may be killed
   bool is_wanted_;        ///< whether the child should run
   int early_deaths_ = 0;  ///< in a row, without a result between them
   std::chrono::steady_clock::time_point started_;

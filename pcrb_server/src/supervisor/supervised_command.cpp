@@ -8,14 +8,13 @@
 #include <thread>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_server/process_tree.hpp"
-#include "pcrb_server/start_program.hpp"
+#include "pcrb_server/processes.hpp"
 
 namespace pcrb {
 
 namespace {
 
-constexpr auto kPollPeriod = std::chrono::milliseconds(20);
+constexpr auto kReapPeriod = std::chrono::milliseconds(20);
 
 /// All processes below this one.
 std::vector<pid_t> descendants() { return processesBelow(getpid()); }
@@ -64,7 +63,7 @@ bool SupervisedCommand::waitUntilGone(std::chrono::milliseconds limit) {
     reap();
     if (descendants().empty()) return true;
     if (std::chrono::steady_clock::now() >= end) return false;
-    std::this_thread::sleep_for(kPollPeriod);
+    std::this_thread::sleep_for(kReapPeriod);
   }
 }
 
@@ -77,7 +76,7 @@ void SupervisedCommand::stop() {
   if (waitUntilGone(patience_.terminate)) return;
   do {
     signalAll(SIGKILL);
-  } while (!waitUntilGone(kPollPeriod));
+  } while (!waitUntilGone(kReapPeriod));
 }
 
 }  // namespace pcrb
