@@ -1,6 +1,6 @@
+#include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/map_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "preparation/map_tool.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(

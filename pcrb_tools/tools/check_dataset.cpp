@@ -1,8 +1,8 @@
 #include <iostream>
 
+#include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/check_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "preparation/check_tool.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(

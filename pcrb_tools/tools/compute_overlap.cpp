@@ -1,6 +1,6 @@
+#include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/overlap_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "preparation/overlap_tool.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(

@@ -1,6 +1,6 @@
-#include "pcrb_tools/conversion/conversion_main.hpp"
-#include "pcrb_tools/conversion/eth_conversion.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "common/tool_main.hpp"
+#include "conversion/conversion_main.hpp"
+#include "conversion/eth_conversion.hpp"
 
 int main(int argc, char** argv) {
   pcrb_tools::EthRequest request;

@@ -1,6 +1,6 @@
+#include "benchmarking/batch_tool.hpp"
+#include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/batch_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(

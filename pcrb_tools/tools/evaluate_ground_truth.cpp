@@ -1,8 +1,8 @@
 #include <iostream>
 
+#include "common/tool_main.hpp"
+#include "ground_truth/ground_truth_tool.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/ground_truth_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(

@@ -2,9 +2,10 @@
 
 #include <iostream>
 
+#include "common/tool_main.hpp"
+#include "fetch/fetch_tool.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/fetch/fetch_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "preparation/check_tool.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -44,6 +45,13 @@ int main(int argc, char** argv) {
     }
     options.prepare = !fetch_only;
     options.convert = [&](const auto& log) { return runConverter(log, options); };
+    options.check = [&](const std::vector<std::string>& sequences, std::ostream& out) {
+      pcrb_tools::CheckOptions check;
+      check.root = options.root;
+      check.sequences = sequences;
+      check.threads = options.threads;
+      return runCheckTool(check, out);
+    };
     return runFetchTool(options, std::cout) ? pcrb_tools::kSuccess : pcrb_tools::kFailure;
   });
 }

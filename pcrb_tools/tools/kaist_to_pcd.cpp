@@ -1,7 +1,7 @@
-#include "pcrb_tools/conversion/conversion_main.hpp"
-#include "pcrb_tools/conversion/kaist_conversion.hpp"
-#include "pcrb_tools/conversion/kaist_options.hpp"
-#include "pcrb_tools/conversion/live_node.hpp"
+#include "conversion/conversion_main.hpp"
+#include "conversion/kaist_conversion.hpp"
+#include "conversion/kaist_options.hpp"
+#include "conversion/live_node.hpp"
 
 int main(int argc, char** argv) {
   if (pcrb_tools::takeLiveFlag(argc, argv)) return pcrb_tools::runKaistNode(argc, argv);

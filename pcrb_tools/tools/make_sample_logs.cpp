@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 
+#include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/simulation/sample_logs.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "simulation/sample_logs.hpp"
 
 int main(int argc, char** argv) {
   pcrb_tools::simulation::SampleLogsRequest request;

@@ -1,7 +1,7 @@
 #include <iostream>
 
-#include "pcrb_tools/merge_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "benchmarking/merge_tool.hpp"
+#include "common/tool_main.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("Merges the shards of a run into one run, and prints its summary.");

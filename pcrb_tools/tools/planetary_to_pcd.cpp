@@ -1,5 +1,5 @@
-#include "pcrb_tools/conversion/conversion_main.hpp"
-#include "pcrb_tools/conversion/planetary_conversion.hpp"
+#include "conversion/conversion_main.hpp"
+#include "conversion/planetary_conversion.hpp"
 
 int main(int argc, char** argv) {
   pcrb_tools::PlanetaryRequest request;

@@ -1,8 +1,8 @@
 #include <iostream>
 
+#include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/preparation.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "preparation/preparation.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(

@@ -1,9 +1,9 @@
 #include <ros/callback_queue.h>
 
+#include "benchmarking/method_choice.hpp"
+#include "benchmarking/registration_client.hpp"
 #include "pcrb_server/node_main.hpp"
 #include "pcrb_server/node_parameters.hpp"
-#include "pcrb_tools/method_choice.hpp"
-#include "pcrb_tools/registration_client.hpp"
 
 namespace {
 

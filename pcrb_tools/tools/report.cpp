@@ -1,8 +1,8 @@
 #include <iostream>
 #include <tuple>
 
-#include "pcrb_tools/report/report_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "common/tool_main.hpp"
+#include "report/report_tool.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("Compares runs: statistics, tests of differences, charts.");

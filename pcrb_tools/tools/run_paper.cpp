@@ -1,5 +1,6 @@
-#include "pcrb_tools/paper_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "benchmarking/paper_tool.hpp"
+#include "common/tool_main.hpp"
+#include "report/report_tool.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -35,6 +36,13 @@ int main(int argc, char** argv) {
                  "benchmarks at the same time; latencies are undisturbed with one only")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_flag("!--no-figures", options.draw_figures, "no PNG and PDF figures, the page only");
+  pcrb_tools::ReportOptions report;
+  app.add_flag("!--no-figures", report.draw_figures, "no PNG and PDF figures, the page only");
+  options.write_report = [&report](const std::vector<std::string>& runs,
+                                   const std::string& output) {
+    report.runs = runs;
+    report.output = output;
+    runReportTool(report);
+  };
   return pcrb_tools::runTool(app, argc, argv, [&] { return runPaperTool(options); });
 }

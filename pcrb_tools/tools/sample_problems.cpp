@@ -1,8 +1,8 @@
 #include <map>
 
+#include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/sampling_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "preparation/sampling_tool.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(

@@ -1,9 +1,9 @@
 #include <iostream>
 #include <vector>
 
+#include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_tools/scoring_tool.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "scoring/scoring_tool.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
-#include "pcrb_tools/bag_tools.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "bags/bag_tools.hpp"
+#include "common/tool_main.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(

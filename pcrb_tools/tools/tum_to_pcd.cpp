@@ -1,7 +1,7 @@
-#include "pcrb_tools/conversion/conversion_main.hpp"
-#include "pcrb_tools/conversion/live_node.hpp"
-#include "pcrb_tools/conversion/tum_conversion.hpp"
-#include "pcrb_tools/conversion/tum_options.hpp"
+#include "conversion/conversion_main.hpp"
+#include "conversion/live_node.hpp"
+#include "conversion/tum_conversion.hpp"
+#include "conversion/tum_options.hpp"
 
 int main(int argc, char** argv) {
   if (pcrb_tools::takeLiveFlag(argc, argv)) return pcrb_tools::runTumNode(argc, argv);

@@ -1,4 +1,4 @@
-#include "pcrb_tools/bag_tools.hpp"
+#include "bags/bag_tools.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -6,6 +6,10 @@
 
 #include "bags/problem_key.hpp"
 #include "bags/scene_bag.hpp"
+#include "common/interruption.hpp"
+#include "common/problem_file_path.hpp"
+#include "common/progress.hpp"
+#include "common/provenance.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
@@ -13,10 +17,6 @@
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/secret.hpp"
 #include "pcrb_server/playback/scan_list.hpp"
-#include "pcrb_tools/interruption.hpp"
-#include "pcrb_tools/problem_file_path.hpp"
-#include "pcrb_tools/progress.hpp"
-#include "pcrb_tools/provenance.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "pcrb_tools/conversion/cloud_folder.hpp"
+#include "conversion/cloud_folder.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "file_identity.hpp"
+#include "common/file_identity.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"

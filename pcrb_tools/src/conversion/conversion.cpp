@@ -1,11 +1,11 @@
-#include "pcrb_tools/conversion/conversion.hpp"
+#include "conversion/conversion.hpp"
 
 #include <filesystem>
 #include <utility>
 
+#include "common/interruption.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/problem/problem.hpp"
-#include "pcrb_tools/interruption.hpp"
 
 namespace pcrb_tools {
 namespace {

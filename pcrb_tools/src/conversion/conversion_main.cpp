@@ -1,10 +1,10 @@
-#include "pcrb_tools/conversion/conversion_main.hpp"
+#include "conversion/conversion_main.hpp"
 
+#include "common/interruption.hpp"
+#include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/interruption.hpp"
-#include "pcrb_tools/tool_main.hpp"
 
 namespace pcrb_tools {
 

@@ -1,7 +1,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "pcrb_tools/conversion/conversion.hpp"
+#include "conversion/conversion.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "pcrb_tools/conversion/eth_conversion.hpp"
+#include "conversion/eth_conversion.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "conversion/file_scans.hpp"
+#include "conversion/log_files.hpp"
 #include "conversion/pose_text.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_tools/conversion/log_files.hpp"
 
 namespace pcrb_tools {
 namespace {

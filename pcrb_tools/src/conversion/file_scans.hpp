@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "pcrb_tools/conversion/conversion.hpp"
-#include "pcrb_tools/conversion/log_files.hpp"
+#include "conversion/conversion.hpp"
+#include "conversion/log_files.hpp"
 
 namespace pcrb_tools {
 

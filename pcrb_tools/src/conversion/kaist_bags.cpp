@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "conversion/bag_messages.hpp"
+#include "archives/bag_messages.hpp"
 #include "conversion/kaist_gate.hpp"
 #include "conversion/kaist_stream.hpp"
 #include "conversion/message_scans.hpp"

@@ -1,4 +1,4 @@
-#include "pcrb_tools/conversion/kaist_conversion.hpp"
+#include "conversion/kaist_conversion.hpp"
 
 #include <algorithm>
 #include <filesystem>

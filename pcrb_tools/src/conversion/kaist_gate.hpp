@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "conversion/kaist_conversion.hpp"
+#include "conversion/log_files.hpp"
 #include "pcrb_core/datasets/kaist.hpp"
 #include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/datasets/tum.hpp"
-#include "pcrb_tools/conversion/kaist_conversion.hpp"
-#include "pcrb_tools/conversion/log_files.hpp"
 
 namespace pcrb_tools {
 

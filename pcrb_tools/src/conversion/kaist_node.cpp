@@ -1,9 +1,9 @@
 #include <vector>
 
+#include "common/tool_main.hpp"
 #include "conversion/kaist_stream.hpp"
+#include "conversion/live_node.hpp"
 #include "conversion/live_run.hpp"
-#include "pcrb_tools/conversion/live_node.hpp"
-#include "pcrb_tools/tool_main.hpp"
 
 namespace pcrb_tools {
 namespace {

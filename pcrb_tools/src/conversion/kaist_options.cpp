@@ -1,8 +1,8 @@
-#include "pcrb_tools/conversion/kaist_options.hpp"
+#include "conversion/kaist_options.hpp"
 
 #include <vector>
 
-#include "pcrb_tools/conversion/conversion_main.hpp"
+#include "conversion/conversion_main.hpp"
 
 namespace pcrb_tools {
 

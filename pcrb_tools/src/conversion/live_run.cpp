@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "conversion/live_node.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/conversion/live_node.hpp"
 
 namespace pcrb_tools {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "conversion/conversion.hpp"
 #include "pcrb_server/node_main.hpp"
 #include "pcrb_server/node_parameters.hpp"
-#include "pcrb_tools/conversion/conversion.hpp"
 
 namespace pcrb_tools {
 

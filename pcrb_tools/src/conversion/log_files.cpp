@@ -1,4 +1,4 @@
-#include "pcrb_tools/conversion/log_files.hpp"
+#include "conversion/log_files.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -6,10 +6,10 @@
 #include <set>
 #include <utility>
 
-#include "file_identity.hpp"
+#include "archives/archive_reader.hpp"
+#include "common/file_identity.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_tools/archive_reader.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -1,12 +1,12 @@
-#include "pcrb_tools/conversion/planetary_conversion.hpp"
+#include "conversion/planetary_conversion.hpp"
 
 #include <utility>
 
 #include "conversion/file_scans.hpp"
+#include "conversion/log_files.hpp"
 #include "conversion/pose_text.hpp"
 #include "pcrb_core/datasets/planetary.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_tools/conversion/log_files.hpp"
 
 namespace pcrb_tools {
 namespace {

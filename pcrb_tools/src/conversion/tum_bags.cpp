@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "conversion/bag_messages.hpp"
+#include "archives/bag_messages.hpp"
 #include "conversion/tum_stream.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"

@@ -1,16 +1,16 @@
-#include "pcrb_tools/conversion/tum_conversion.hpp"
+#include "conversion/tum_conversion.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
+#include "archives/archive_reader.hpp"
 #include "conversion/depth_png.hpp"
 #include "conversion/file_scans.hpp"
+#include "conversion/log_files.hpp"
 #include "conversion/pose_text.hpp"
 #include "conversion/tum_gate.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_tools/archive_reader.hpp"
-#include "pcrb_tools/conversion/log_files.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -4,9 +4,9 @@
 #include <set>
 #include <string>
 
+#include "conversion/tum_conversion.hpp"
 #include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/datasets/tum.hpp"
-#include "pcrb_tools/conversion/tum_conversion.hpp"
 
 namespace pcrb_tools {
 

@@ -1,10 +1,10 @@
 #include <vector>
 
+#include "common/tool_main.hpp"
+#include "conversion/live_node.hpp"
 #include "conversion/live_run.hpp"
 #include "conversion/tum_stream.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_tools/conversion/live_node.hpp"
-#include "pcrb_tools/tool_main.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -1,9 +1,9 @@
-#include "pcrb_tools/conversion/tum_options.hpp"
+#include "conversion/tum_options.hpp"
 
 #include <vector>
 
-#include "pcrb_tools/conversion/conversion_main.hpp"
-#include "pcrb_tools/tool_main.hpp"
+#include "common/tool_main.hpp"
+#include "conversion/conversion_main.hpp"
 
 namespace pcrb_tools {
 

@@ -1,4 +1,4 @@
-#include "pcrb_tools/conversion/worker_pool.hpp"
+#include "conversion/worker_pool.hpp"
 
 #include <string>
 #include <utility>

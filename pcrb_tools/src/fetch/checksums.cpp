@@ -1,4 +1,4 @@
-#include "pcrb_tools/fetch/checksums.hpp"
+#include "fetch/checksums.hpp"
 
 #include <filesystem>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "confirmation.hpp"
+#include "fetch/confirmation.hpp"
 
 #include <curl/curl.h>
 

@@ -1,13 +1,13 @@
-#include "content.hpp"
+#include "fetch/content.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <string_view>
 
+#include "archives/archive_reader.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/problem.hpp"
-#include "pcrb_tools/archive_reader.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pcrb_tools/fetch/sources.hpp"
+#include "fetch/sources.hpp"
 
 namespace pcrb_tools {
 

@@ -1,4 +1,4 @@
-#include "pcrb_tools/fetch/download.hpp"
+#include "fetch/download.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <thread>
 
-#include "confirmation.hpp"
+#include "fetch/confirmation.hpp"
+#include "fetch/transfer.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/text.hpp"
-#include "transfer.hpp"
 
 namespace pcrb_tools {
 namespace {

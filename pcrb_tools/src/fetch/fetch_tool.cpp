@@ -1,20 +1,19 @@
-#include "pcrb_tools/fetch/fetch_tool.hpp"
+#include "fetch/fetch_tool.hpp"
 
 #include <filesystem>
 #include <map>
 #include <set>
 
-#include "content.hpp"
+#include "common/progress.hpp"
+#include "common/run_child.hpp"
+#include "fetch/checksums.hpp"
+#include "fetch/content.hpp"
+#include "fetch/put_file.hpp"
+#include "fetch/sources.hpp"
+#include "fetch/unpack.hpp"
+#include "fetch/wanted_sources.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_tools/check_tool.hpp"
-#include "pcrb_tools/fetch/checksums.hpp"
-#include "pcrb_tools/fetch/sources.hpp"
-#include "pcrb_tools/fetch/unpack.hpp"
-#include "pcrb_tools/progress.hpp"
-#include "pcrb_tools/run_child.hpp"
-#include "put_file.hpp"
-#include "wanted_sources.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -161,11 +160,7 @@ class Fetch {
       }
     }
     if (with_problems_.empty()) return is_sound;
-    CheckOptions check;
-    check.root = options_.root;
-    check.sequences.assign(with_problems_.begin(), with_problems_.end());
-    check.threads = options_.threads;
-    return runCheckTool(check, out_) && is_sound;
+    return options_.check({with_problems_.begin(), with_problems_.end()}, out_) && is_sound;
   }
 
   const FetchOptions& options_;

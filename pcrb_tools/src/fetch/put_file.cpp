@@ -1,4 +1,4 @@
-#include "put_file.hpp"
+#include "fetch/put_file.hpp"
 
 #include <filesystem>
 

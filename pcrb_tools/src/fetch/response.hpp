@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "pcrb_tools/fetch/download.hpp"
+#include "fetch/download.hpp"
 
 namespace pcrb_tools {
 

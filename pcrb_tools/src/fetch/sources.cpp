@@ -1,4 +1,4 @@
-#include "pcrb_tools/fetch/sources.hpp"
+#include "fetch/sources.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -8,11 +8,11 @@
 #include <set>
 #include <utility>
 
+#include "archives/archive_reader.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
-#include "pcrb_tools/archive_reader.hpp"
 
 namespace pcrb_tools {
 namespace {

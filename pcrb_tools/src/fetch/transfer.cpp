@@ -1,4 +1,4 @@
-#include "transfer.hpp"
+#include "fetch/transfer.hpp"
 
 #include <curl/curl.h>
 
@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
+#include "fetch/response.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/text.hpp"
-#include "response.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "pcrb_tools/fetch/download.hpp"
+#include "fetch/download.hpp"
 
 namespace pcrb_tools {
 

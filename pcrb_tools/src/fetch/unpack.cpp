@@ -1,17 +1,17 @@
-#include "pcrb_tools/fetch/unpack.hpp"
+#include "fetch/unpack.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string_view>
 
-#include "file_identity.hpp"
+#include "archives/archive_reader.hpp"
+#include "common/file_identity.hpp"
+#include "fetch/put_file.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_tools/archive_reader.hpp"
-#include "put_file.hpp"
 
 namespace pcrb_tools {
 namespace {

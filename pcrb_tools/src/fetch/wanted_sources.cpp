@@ -1,4 +1,4 @@
-#include "wanted_sources.hpp"
+#include "fetch/wanted_sources.hpp"
 
 #include <algorithm>
 #include <set>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pcrb_tools/fetch/fetch_tool.hpp"
-#include "pcrb_tools/fetch/sources.hpp"
+#include "fetch/fetch_tool.hpp"
+#include "fetch/sources.hpp"
 
 namespace pcrb_tools {
 

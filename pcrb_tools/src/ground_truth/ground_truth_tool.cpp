@@ -1,10 +1,13 @@
-#include "pcrb_tools/ground_truth_tool.hpp"
+#include "ground_truth/ground_truth_tool.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <set>
 
+#include "common/interruption.hpp"
+#include "common/progress.hpp"
+#include "common/provenance.hpp"
 #include "ground_truth/pair_evaluator.hpp"
 #include "ground_truth/sequence_accuracy.hpp"
 #include "pcrb_core/error.hpp"
@@ -12,9 +15,6 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/dataset.hpp"
 #include "pcrb_core/problem/problem.hpp"
-#include "pcrb_tools/interruption.hpp"
-#include "pcrb_tools/progress.hpp"
-#include "pcrb_tools/provenance.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pcrb_tools/report/report_tool.hpp"
 #include "report/ground_truth.hpp"
 #include "report/problem_details.hpp"
+#include "report/report_tool.hpp"
 
 namespace pcrb_tools {
 

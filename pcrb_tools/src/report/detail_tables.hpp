@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pcrb_tools/report/report_tool.hpp"
+#include "report/report_tool.hpp"
 #include "report/section.hpp"
 #include "report/table.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pcrb_tools/report/report_tool.hpp"
+#include "report/report_tool.hpp"
 #include "report/scored_problem.hpp"
 
 namespace pcrb_tools {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/progress.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/problem/dataset.hpp"
-#include "pcrb_tools/progress.hpp"
 #include "report/scored_problem.hpp"
 
 namespace pcrb_tools {

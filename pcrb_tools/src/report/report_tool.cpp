@@ -1,12 +1,12 @@
-#include "pcrb_tools/report/report_tool.hpp"
+#include "report/report_tool.hpp"
 
 #include <ros/package.h>
 
 #include <string>
 #include <vector>
 
+#include "common/run_child.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_tools/run_child.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pcrb_tools/report/report_tool.hpp"
 #include "report/ground_truth.hpp"
+#include "report/report_tool.hpp"
 #include "report/section.hpp"
 #include "report/table.hpp"
 

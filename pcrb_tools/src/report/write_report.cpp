@@ -2,7 +2,6 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
-#include "pcrb_tools/report/report_tool.hpp"
 #include "report/add_details.hpp"
 #include "report/charts.hpp"
 #include "report/comparison_tables.hpp"
@@ -11,6 +10,7 @@
 #include "report/load_entries.hpp"
 #include "report/own_problems.hpp"
 #include "report/published.hpp"
+#include "report/report_tool.hpp"
 #include "report/score_tables.hpp"
 
 namespace pcrb_tools {

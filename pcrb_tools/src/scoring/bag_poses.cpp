@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "conversion/bag_messages.hpp"
+#include "archives/bag_messages.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "scoring/recorded_poses.hpp"

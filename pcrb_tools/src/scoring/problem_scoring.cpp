@@ -4,14 +4,14 @@
 #include <set>
 
 #include "bags/problem_key.hpp"
+#include "common/problem_file_path.hpp"
+#include "common/progress.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_server/offline_run.hpp"
-#include "pcrb_tools/problem_file_path.hpp"
-#include "pcrb_tools/progress.hpp"
-#include "pcrb_tools/scoring_tool.hpp"
 #include "scoring/recorded_poses.hpp"
+#include "scoring/scoring_tool.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -4,6 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "common/interruption.hpp"
+#include "common/progress.hpp"
+#include "common/sequence_folder.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/evaluation/trajectory_error.hpp"
@@ -11,11 +14,8 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_server/playback/scan_list.hpp"
-#include "pcrb_tools/interruption.hpp"
-#include "pcrb_tools/progress.hpp"
-#include "pcrb_tools/scoring_tool.hpp"
-#include "pcrb_tools/sequence_folder.hpp"
 #include "scoring/recorded_poses.hpp"
+#include "scoring/scoring_tool.hpp"
 #include "scoring/tracking_report.hpp"
 
 namespace pcrb_tools {

@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/bvh.hpp"
+#include "simulation/bvh.hpp"
 
 #include <algorithm>
 #include <array>

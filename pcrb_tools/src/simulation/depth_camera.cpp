@@ -1,11 +1,11 @@
-#include "pcrb_tools/simulation/depth_camera.hpp"
+#include "simulation/depth_camera.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pcrb_tools/simulation/height_field.hpp"
-#include "pcrb_tools/simulation/noise.hpp"
+#include "simulation/height_field.hpp"
+#include "simulation/noise.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {

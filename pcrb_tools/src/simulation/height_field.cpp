@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/height_field.hpp"
+#include "simulation/height_field.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "pcrb_tools/simulation/lidar.hpp"
+#include "simulation/lidar.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pcrb_tools/simulation/noise.hpp"
+#include "simulation/noise.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {

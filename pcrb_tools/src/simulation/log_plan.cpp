@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/log_plan.hpp"
+#include "simulation/log_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "pcrb_core/io/atomic_file.hpp"
-#include "pcrb_tools/simulation/noise.hpp"
+#include "simulation/noise.hpp"
 
 namespace pcrb_tools::simulation {
 

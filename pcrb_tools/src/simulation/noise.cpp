@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/noise.hpp"
+#include "simulation/noise.hpp"
 
 #include <cmath>
 

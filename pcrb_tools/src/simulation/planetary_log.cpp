@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_tools/simulation/log_plan.hpp"
-#include "pcrb_tools/simulation/noise.hpp"
-#include "pcrb_tools/simulation/props.hpp"
-#include "pcrb_tools/simulation/scanner.hpp"
-#include "pcrb_tools/simulation/scenes.hpp"
+#include "simulation/log_plan.hpp"
+#include "simulation/noise.hpp"
+#include "simulation/props.hpp"
+#include "simulation/scanner.hpp"
+#include "simulation/scenes.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {

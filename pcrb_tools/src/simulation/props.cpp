@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/props.hpp"
+#include "simulation/props.hpp"
 
 #include <cmath>
 

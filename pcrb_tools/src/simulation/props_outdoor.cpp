@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "pcrb_tools/simulation/noise.hpp"
-#include "pcrb_tools/simulation/props.hpp"
-#include "pcrb_tools/simulation/surfaces.hpp"
+#include "simulation/noise.hpp"
+#include "simulation/props.hpp"
+#include "simulation/surfaces.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {

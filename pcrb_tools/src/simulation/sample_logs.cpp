@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/sample_logs.hpp"
+#include "simulation/sample_logs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <map>
 #include <utility>
 
+#include "common/progress.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/progress.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/scanner.hpp"
+#include "simulation/scanner.hpp"
 
 #include <cmath>
 

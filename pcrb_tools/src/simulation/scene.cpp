@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/scene.hpp"
+#include "simulation/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

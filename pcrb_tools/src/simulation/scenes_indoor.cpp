@@ -1,9 +1,9 @@
 #include <vector>
 
-#include "pcrb_tools/simulation/noise.hpp"
-#include "pcrb_tools/simulation/props.hpp"
-#include "pcrb_tools/simulation/scenes.hpp"
-#include "pcrb_tools/simulation/surfaces.hpp"
+#include "simulation/noise.hpp"
+#include "simulation/props.hpp"
+#include "simulation/scenes.hpp"
+#include "simulation/surfaces.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {

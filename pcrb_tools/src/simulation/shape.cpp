@@ -1,4 +1,4 @@
-#include "pcrb_tools/simulation/shape.hpp"
+#include "simulation/shape.hpp"
 
 #include <cmath>
 #include <limits>

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "pcrb_tools/simulation/depth_camera.hpp"
+#include "simulation/depth_camera.hpp"
 
 namespace pcrb_tools::simulation {
 

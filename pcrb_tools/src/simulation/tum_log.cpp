@@ -5,10 +5,10 @@
 
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_tools/simulation/depth_camera.hpp"
-#include "pcrb_tools/simulation/log_plan.hpp"
-#include "pcrb_tools/simulation/noise.hpp"
-#include "pcrb_tools/simulation/scenes.hpp"
+#include "simulation/depth_camera.hpp"
+#include "simulation/log_plan.hpp"
+#include "simulation/noise.hpp"
+#include "simulation/scenes.hpp"
 #include "tum_bag.hpp"
 
 namespace pcrb_tools::simulation {

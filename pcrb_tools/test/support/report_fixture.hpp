@@ -11,7 +11,7 @@
 #include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/text.hpp"
-#include "pcrb_tools/report/report_tool.hpp"
+#include "report/report_tool.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,0 +1,82 @@
+#include "benchmarking/method_choice.hpp"
+
+#include <dlfcn.h>
+#include <link.h>
+#include <ros/package.h>
+#include <ros/param.h>
+
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/registration/registry.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+constexpr const char* kInEffect = "in_effect";
+
+/// A method's parameters, defaults included.
+pcrb::Parameters completed(const std::string& method, const pcrb::Parameters& given) {
+  pcrb::Parameters parameters = given;
+  const pcrb::Parameters defaults = pcrb::registrationDefaults(method);
+  parameters.insert(defaults.begin(), defaults.end());
+  return parameters;
+}
+
+/// Where the loader found a library that has been loaded.
+std::string fileOfLibrary(const std::string& library) {
+  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_NOLOAD);
+  const link_map* map = nullptr;
+  const bool is_found = handle != nullptr && dlinfo(handle, RTLD_DI_LINKMAP, &map) == 0;
+  const std::string file = is_found ? map->l_name : "";
+  if (handle != nullptr) dlclose(handle);
+  if (!is_found) throw pcrb::InvalidParameter("~plugin: " + library + " is not loaded any more");
+  return file;
+}
+
+/// A bare name is one that the loader looks for.
+std::string readPlugin(pcrb::NodeParameters& reader) {
+  const std::string plugin = reader.string("plugin", "");
+  return plugin.find('/') == std::string::npos ? plugin : reader.path("plugin", "");
+}
+
+}  // namespace
+
+MethodChoice::MethodChoice(pcrb::NodeParameters& reader)
+    : method_(reader.string("method", "gicp")),
+      plugin_(readPlugin(reader)),
+      file_(reader.path("parameters", ros::package::getPath("pcrb_launch") + "/config/methods/" +
+                                          method_ + ".yaml")) {
+  reader.allowOwnParameter(kInEffect);
+  reader.check([this] {
+    if (!plugin_.empty()) pcrb::loadRegistrationLibrary(plugin_);
+    pcrb::registrationDefaults(method_);  // an unknown method has no file, either
+    parameters_.emplace(file_);
+    check();
+  });
+}
+
+void MethodChoice::check() const {
+  make("");
+  for (const auto& data_set : parameters_->dataSets()) make(data_set);
+}
+
+std::unique_ptr<pcrb::Registration> MethodChoice::make(const std::string& data_set) const {
+  return pcrb::makeRegistration(method_, parameters_->of(data_set));
+}
+
+std::string MethodChoice::inEffect() const {
+  std::string text = "\n";
+  const pcrb::Parameters common = completed(method_, parameters_->of(""));
+  for (const auto& [name, value] : common) text += name + ": " + value + "\n";
+  for (const auto& data_set : parameters_->dataSets()) {
+    for (const auto& [name, value] : parameters_->of(data_set)) {
+      if (common.at(name) != value) text += data_set + "/" + name + ": " + value + "\n";
+    }
+  }
+  if (!plugin_.empty()) text += "plugin: " + pcrb::fileHash(fileOfLibrary(plugin_)) + "\n";
+  return text;
+}
+
+void MethodChoice::announce() const { ros::param::set(std::string("~") + kInEffect, inEffect()); }
+
+}  // namespace pcrb_tools

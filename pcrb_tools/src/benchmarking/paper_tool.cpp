@@ -1,0 +1,112 @@
+#include "benchmarking/paper_tool.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+
+#include "benchmarking/batch_tool.hpp"
+#include "common/tool_main.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+struct Experiment {
+  const char* method;
+  const char* kind;
+};
+
+/// The paper gives global methods the global problems, without an initial guess.
+constexpr std::array<Experiment, 7> kExperiments{{{"icp", "local"},
+                                                  {"gicp", "local"},
+                                                  {"ndt", "local"},
+                                                  {"ppcr", "local"},
+                                                  {"ransac", "global"},
+                                                  {"fgr", "global"},
+                                                  {"teaser", "global"}}};
+
+std::vector<Experiment> chosen(const std::vector<std::string>& methods) {
+  if (methods.empty()) return {kExperiments.begin(), kExperiments.end()};
+  std::vector<Experiment> experiments;
+  for (const std::string& method : methods) {
+    const auto* found = std::find_if(kExperiments.begin(), kExperiments.end(),
+                                     [&](const Experiment& e) { return e.method == method; });
+    if (found == kExperiments.end()) {
+      throw pcrb::InvalidParameter("found method `" + method +
+                                   "`, expected icp, gicp, ndt, ppcr, ransac, fgr or teaser");
+    }
+    const bool is_new =
+        std::none_of(experiments.begin(), experiments.end(),
+                     [&](const Experiment& e) { return e.method == found->method; });
+    if (is_new) experiments.push_back(*found);
+  }
+  return experiments;
+}
+
+BatchOptions batchOf(const PaperOptions& options, const Experiment& experiment) {
+  BatchOptions batch;
+  batch.run = options.run + "/" + experiment.method;
+  batch.jobs = options.jobs;
+  batch.arguments = {"root:=" + options.root,
+                     "sequences:=" + options.sequences,
+                     std::string("kind:=") + experiment.kind,
+                     std::string("method:=") + experiment.method,
+                     "subset:=" + std::to_string(options.subset),
+                     "seed:=" + std::to_string(options.seed),
+                     "time_limit:=" + pcrb::formatShortest(options.time_limit)};
+  return batch;
+}
+
+/// Whether a run is there and every problem has its result.
+bool isComplete(const std::string& run) {
+  if (!std::filesystem::exists(run + "/results.sqlite")) return false;
+  const pcrb::ResultsStore store(run, pcrb::ResultsStore::Access::kReadOnly);
+  const auto info = store.runInfo();
+  const auto planned = info.find("problems");
+  return planned != info.end() && planned->second == std::to_string(store.count());
+}
+
+/// The complete runs of all experiments, those of earlier calls too.
+std::vector<std::string> completeRuns(const PaperOptions& options,
+                                      const std::vector<std::string>& failed) {
+  std::vector<std::string> runs;
+  for (const std::string& method : paperMethods()) {
+    const std::string run = options.run + "/" + method;
+    const bool has_failed = std::find(failed.begin(), failed.end(), method) != failed.end();
+    if (!has_failed && isComplete(run)) runs.push_back(run);
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::vector<std::string> paperMethods() {
+  std::vector<std::string> methods;
+  for (const Experiment& experiment : kExperiments) methods.emplace_back(experiment.method);
+  return methods;
+}
+
+int runPaperTool(const PaperOptions& options) {
+  std::vector<std::string> failed;
+  for (const Experiment& experiment : chosen(options.methods)) {
+    std::cout << experiment.method << ", " << experiment.kind << " problems:" << std::endl;
+    if (runBatchTool(batchOf(options, experiment)) != kSuccess) {
+      failed.emplace_back(experiment.method);
+    }
+  }
+  const std::vector<std::string> runs = completeRuns(options, failed);
+  if (!runs.empty()) {
+    options.write_report(runs, options.run + "/report");
+    std::cout << "report: " << options.run << "/report/index.html" << std::endl;
+  }
+  if (failed.empty()) return kSuccess;
+  std::cerr << "not complete, and not in the report:";
+  for (const std::string& method : failed) std::cerr << " " << method;
+  std::cerr << std::endl;
+  return kFailure;
+}
+
+}  // namespace pcrb_tools

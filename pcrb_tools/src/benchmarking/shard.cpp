@@ -1,0 +1,144 @@
+#include "benchmarking/shard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+#include "benchmarking/merge_tool.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 5> kComplaints{
+    "benchmark_server: ", "localization_bridge: ", "node_supervisor: ", "cannot start",
+    "RLException"};
+
+}  // namespace
+
+Shard::Shard(std::shared_ptr<const ShardSettings> settings, int number)
+    : settings_(std::move(settings)), number_(number) {}
+
+Shard::~Shard() {
+  process_.reset();
+  lock_.reset();
+}
+
+std::string Shard::folder() const { return settings_->run + "/shards/" + std::to_string(number_); }
+
+std::string Shard::name() const {
+  return "shard " + std::to_string(number_) + "/" + std::to_string(settings_->shards);
+}
+
+std::string Shard::logFile() const { return folder() + "/roslaunch.log"; }
+
+bool Shard::tryStart() {
+  fs::create_directories(folder());
+  lock_ = std::make_unique<pcrb::FileLock>(folder() + "/batch.lock");
+  if (!lock_->isHeld()) return false;
+  port_ = std::make_unique<ReservedPort>();
+  pcrb::ProgramStart start;
+  start.command = settings_->command;
+  start.command.push_back("run:=" + folder());
+  start.command.push_back("shard:=" + std::to_string(number_) + "/" +
+                          std::to_string(settings_->shards));
+  start.environment = {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(port_->number())},
+                       {"ROS_IP", "127.0.0.1"},
+                       {"ROS_HOSTNAME", std::nullopt},
+                       {"ROS_NAMESPACE", std::nullopt},
+                       {"ROS_LOG_DIR", folder() + "/log"}};
+  if (settings_->scratch.empty()) {
+    tmpdir_ = std::make_unique<TemporaryFolder>("pcrb_shard");
+    start.environment["TMPDIR"] = tmpdir_->path();
+  } else {
+    const std::string scratch = settings_->scratch + "/shard_" + std::to_string(number_);
+    fs::create_directories(scratch);
+    for (const char* name : {"ROS_HOME", "TMPDIR"}) start.environment[name] = scratch;
+    start.environment["ROS_LOG_DIR"] = scratch + "/log";
+  }
+  start.log = logFile();
+  log_start_ = fs::exists(start.log) ? static_cast<std::streamoff>(fs::file_size(start.log)) : 0;
+  start.inherited_descriptor = lock_->descriptor();
+  process_ = std::make_unique<ChildProcess>(start);
+  return true;
+}
+
+bool Shard::isRunning() {
+  if (!process_) return false;
+  if (!process_->ended()) return true;
+  process_.reset();
+  port_.reset();
+  foldLog();
+  tmpdir_.reset();
+  lock_.reset();
+  return false;
+}
+
+/// The server that ended could not fold its write-ahead log into the database while it was read
+/// here.
+void Shard::foldLog() {
+  store_.reset();
+  if (!fs::exists(folder() + "/results.sqlite")) return;
+  try {
+    const pcrb::ResultsStore store(folder(), pcrb::ResultsStore::Access::kReadWrite);
+  } catch (const pcrb::StoreError&) {
+    // Damaged, or a server that outlived its roslaunch is writing: both show when it is read.
+  }
+}
+
+void Shard::interrupt(int signal) {
+  if (process_) process_->signal(signal);
+}
+
+void Shard::open() {
+  if (store_ && total_ > 0) return;
+  try {
+    store_ = std::make_unique<pcrb::ResultsStore>(folder(), pcrb::ResultsStore::Access::kReadOnly);
+    const auto info = store_->runInfo();
+    const auto problems = info.find("problems");
+    if (problems != info.end()) total_ = pcrb::parseUnsigned(problems->second).value_or(0);
+  } catch (const pcrb::StoreError&) {
+    store_.reset();  // the server is about to make it, or to say in its log what is wrong with it
+  }
+}
+
+std::size_t Shard::done() {
+  open();
+  return store_ ? store_->count() : 0;
+}
+
+std::size_t Shard::total() {
+  open();
+  return total_;
+}
+
+bool Shard::isComplete() { return total() > 0 && done() >= total(); }
+
+std::string Shard::defect() {
+  if (!isComplete()) {
+    const std::string of = total_ == 0 ? "" : " of " + std::to_string(total_);
+    return name() + ": " + std::to_string(done()) + of + " problems have a result" +
+           lastComplaint();
+  }
+  const std::string silence = describeSilence(store_->results());
+  return silence.empty() ? "" : name() + ": " + silence + "; see " + logFile();
+}
+
+/// What a node said on standard error before it gave up, as the suite's nodes say it.
+std::string Shard::lastComplaint() const {
+  std::ifstream log(logFile());
+  log.seekg(log_start_);
+  std::string line;
+  std::string complaint;
+  while (std::getline(log, line)) {
+    const auto begins = [&line](const char* start) { return line.rfind(start, 0) == 0; };
+    if (std::any_of(kComplaints.begin(), kComplaints.end(), begins)) complaint = line;
+  }
+  return complaint.empty() ? "; see " + logFile() : "; " + complaint + " (" + logFile() + ")";
+}
+
+}  // namespace pcrb_tools

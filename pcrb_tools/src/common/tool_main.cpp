@@ -1,0 +1,75 @@
+#include "common/tool_main.hpp"
+
+#include <ros/init.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pcrb_server/node_parameters.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+std::string toolName(int argc, char** argv) {
+  return argc > 0 ? std::filesystem::path(argv[0]).filename().string() : std::string("pcrb_tool");
+}
+
+/// CLI11 wants the arguments without the program's name, last one first.
+std::vector<std::string> argumentsForCli(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  if (!arguments.empty()) arguments.erase(arguments.begin());
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
+/// Of the tools that launch files wrap: roslaunch, which appends `__name:=…`, starts them in
+/// another folder.
+void requireAbsolutePaths(const CLI::App& app, int argc, char** argv) {
+  const auto is_roslaunchs = [](const char* word) {
+    return std::string_view(word).rfind("__name:=", 0) == 0;
+  };
+  if (std::none_of(argv, argv + argc, is_roslaunchs)) return;
+  for (const std::string name : {"logs", "root", "run"}) {
+    const CLI::Option* const option = app.get_option_no_throw("--" + name);
+    if (option == nullptr || option->empty()) continue;
+    const std::string mistake = pcrb::relativePathMistake(name, option->results().front());
+    if (!mistake.empty()) throw CLI::ValidationError("--" + name, mistake);
+  }
+}
+
+int complain(const std::string& tool, std::string what, int status) {
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  std::cerr << tool << ": " << what << std::endl;
+  return status;
+}
+
+}  // namespace
+
+int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  const std::string tool = toolName(argc, argv);
+  app.name(tool);
+  try {
+    app.parse(argumentsForCli(argc, argv));
+    requireAbsolutePaths(app, argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return complain(tool, std::string(error.what()) + " (see --help)", kUsageError);
+  }
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    return complain(tool, "out of memory", kFailure);
+  } catch (const std::exception& error) {
+    return complain(tool, error.what(), kFailure);
+  }
+}
+
+}  // namespace pcrb_tools

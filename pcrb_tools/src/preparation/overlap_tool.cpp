@@ -1,0 +1,116 @@
+#include "preparation/overlap_tool.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <numeric>
+
+#include "common/interruption.hpp"
+#include "common/progress.hpp"
+#include "common/provenance.hpp"
+#include "common/sequence_folder.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
+#include "pcrb_core/problem/overlap.hpp"
+#include "pcrb_core/problem/overlap_matrix.hpp"
+#include "preparation/overlap_journal.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+std::vector<std::size_t> targetPositions(const SequenceFolder& folder,
+                                         const std::vector<std::string>& names) {
+  std::vector<std::size_t> positions(folder.clouds.size());
+  std::iota(positions.begin(), positions.end(), 0);
+  if (names.empty()) return positions;
+  positions.clear();
+  for (const std::string& name : names) positions.push_back(positionOf(folder, name));
+  std::sort(positions.begin(), positions.end());
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  return positions;
+}
+
+pcrb::OverlapJob makeJob(const SequenceFolder& folder, const OverlapOptions& options) {
+  pcrb::OverlapJob job;
+  for (const std::string& name : folder.clouds) job.files.push_back(folder.cloud(name));
+  job.distance = options.distance
+                     ? *options.distance
+                     : pcrb::loadDataset(folder.root, folder.data_set).overlap_distance;
+  job.window = options.window;
+  job.targets = targetPositions(folder, options.targets);
+  job.threads = options.threads;
+  return job;
+}
+
+Provenance makeProvenance(const SequenceFolder& folder, const pcrb::OverlapJob& job) {
+  Provenance provenance("compute_overlap");
+  provenance.setParameter("distance", pcrb::formatShortest(job.distance));
+  provenance.setParameter("window", std::to_string(job.window));
+  std::string targets;
+  if (job.targets.size() < job.files.size()) {
+    for (const std::size_t target : job.targets) targets += folder.clouds[target] + " ";
+  }
+  provenance.setParameter("targets", targets.empty() ? "all" : targets);
+  for (const std::string& file : job.files) provenance.addInput(file);
+  return provenance;
+}
+
+void setColumn(pcrb::OverlapMatrix& matrix, std::size_t target, const std::vector<double>& column) {
+  for (std::size_t source = 0; source < column.size(); ++source) {
+    if (source != target) matrix.at(source, target) = column[source];
+  }
+}
+
+/// Takes what the journal knows and takes it off the job.
+void resume(const OverlapJournal& journal, pcrb::OverlapMatrix& matrix, pcrb::OverlapJob& job) {
+  for (const auto& [target, column] : journal.known()) setColumn(matrix, target, column);
+  const auto is_known = [&](std::size_t target) { return journal.known().count(target) > 0; };
+  job.targets.erase(std::remove_if(job.targets.begin(), job.targets.end(), is_known),
+                    job.targets.end());
+}
+
+pcrb::OverlapMatrix computeMatrix(const SequenceFolder& folder, pcrb::OverlapJob job,
+                                  OverlapJournal& journal) {
+  pcrb::OverlapMatrix matrix(folder.clouds);
+  const std::size_t pairs = countPairs(job);
+  resume(journal, matrix, job);
+  Progress progress(folder.sequence, "pairs", pairs);
+  progress.keep(pairs - countPairs(job));
+  pcrb::OverlapEvents events;
+  events.column_done = [&](std::size_t target, const std::vector<double>& column) {
+    journal.append(target, column);
+    setColumn(matrix, target, column);
+    const auto known = std::count_if(column.begin(), column.end(), [](double v) { return v == v; });
+    progress.add(static_cast<std::size_t>(known) - 1);
+    Interruption::check();
+  };
+  computeOverlaps(job, events);
+  progress.finish();
+  return matrix;
+}
+
+}  // namespace
+
+void runOverlapTool(const OverlapOptions& options) {
+  SequenceFolder folder = openSequenceFolder(options.folder);
+  exclude(folder, options.excluded);
+  const std::string output =
+      options.output.empty() ? folder.sibling(folder.sequence + "_overlap.txt") : options.output;
+  const pcrb::OverlapJob job = makeJob(folder, options);
+  const Provenance provenance = makeProvenance(folder, job);
+  const std::string journal_path = output + ".partial";
+  if (provenance.isUpToDate(output)) {
+    std::filesystem::remove(journal_path);  // a kill may have come before its end
+    std::cerr << output << ": complete and unchanged, kept" << std::endl;
+    return;
+  }
+  if (!options.force) Provenance::requireReplaceable(output);
+  OverlapJournal journal(journal_path, provenance.text(), folder.clouds.size());
+  const pcrb::OverlapMatrix matrix = computeMatrix(folder, job, journal);
+  provenance.begin(output);
+  writeOverlapMatrix(output, matrix);
+  provenance.record(output);
+  journal.remove();
+}
+
+}  // namespace pcrb_tools

@@ -1,0 +1,85 @@
+#include "benchmarking/batch_tool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "benchmarking/batch_configuration.hpp"
+#include "benchmarking/reserved_port.hpp"
+#include "pcrb_core/error.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+using Words = std::vector<std::string>;
+
+BatchOptions optionsIn(const std::string& folder) {
+  BatchOptions options;
+  options.run = folder;
+  options.arguments = {"root:=" + folder, "method:=icp"};
+  options.jobs = 3;
+  return options;
+}
+
+TEST(LaunchArguments, AreThoseOfTheLaunchFileAndNotThoseThatRoslaunchAppends) {
+  Words words{"evaluate_batch", "--run",       "a",     "root:=/data",
+              "__name:=batch",  "__log:=/log", "kind:="};
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  EXPECT_EQ(launchArguments(static_cast<int>(argv.size()), argv.data()),
+            (Words{"root:=/data", "kind:="}));
+}
+
+TEST(BatchConfiguration, GoesOnWithItsNumberOfShardsWhateverTheJobs) {
+  const pcrb_test::TemporaryFolder folder;
+  BatchOptions options = optionsIn(folder.path());
+  EXPECT_EQ(numberOfShards(options), 3);
+  noteConfiguration(options, 3);
+  options.jobs = 8;
+  EXPECT_EQ(numberOfShards(options), 3);
+  noteConfiguration(options, 3);
+}
+
+TEST(BatchConfiguration, TakesArgumentsInAnyOrderAndRefusesOthers) {
+  const pcrb_test::TemporaryFolder folder;
+  BatchOptions options = optionsIn(folder.path());
+  noteConfiguration(options, 3);
+  std::swap(options.arguments[0], options.arguments[1]);
+  noteConfiguration(options, 3);
+  options.arguments[0] = "method:=ndt";
+  pcrb_test::expectError<pcrb::Error>([&] { noteConfiguration(options, 4); },
+                                      "found `shards 3` `method:=icp`",
+                                      "asked for `shards 4` `method:=ndt`");
+}
+
+TEST(BatchConfiguration, RefusesOtherContentOfAFileThatAnArgumentNames) {
+  const pcrb_test::TemporaryFolder folder;
+  const std::string file = folder.file("icp.yaml");
+  BatchOptions options = optionsIn(folder.path());
+  options.arguments.push_back("parameters:=" + file);
+  std::ofstream(file) << "max_iterations: 35\n";
+  noteConfiguration(options, 3);
+  noteConfiguration(options, 3);
+  std::ofstream(file) << "max_iterations: 1\n";
+  pcrb_test::expectError<pcrb::Error>([&] { noteConfiguration(options, 3); },
+                                      "another batch: found `parameters:=" + file,
+                                      "asked for `parameters:=" + file);
+}
+
+TEST(BatchConfiguration, RefusesANoteThatIsNone) {
+  const pcrb_test::TemporaryFolder folder;
+  std::ofstream(folder.file("batch.txt")) << "hello\n";
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, numberOfShards(optionsIn(folder.path())), "`hello`");
+}
+
+TEST(ReservedPort, IsGivenToNobodyElse) {
+  const ReservedPort a;
+  const ReservedPort b;
+  EXPECT_NE(a.number(), b.number());
+  EXPECT_GT(a.number(), 0);
+}
+
+}  // namespace
+}  // namespace pcrb_tools

@@ -1,0 +1,81 @@
+#include "common/tool_main.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "pcrb_core/error.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs a tool with one option `--number` and the arguments.
+Outcome run(std::vector<std::string> arguments, const std::function<int(int)>& body) {
+  arguments.insert(arguments.begin(), "/opt/bin/some_tool");
+  std::vector<char*> argv;
+  for (auto& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  CLI::App app("Does something.");
+  int number = 0;
+  app.add_option("--number", number, "a number");
+  Outcome outcome;
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  outcome.status =
+      runTool(app, static_cast<int>(arguments.size()), argv.data(), [&] { return body(number); });
+  outcome.out = testing::internal::GetCapturedStdout();
+  outcome.err = testing::internal::GetCapturedStderr();
+  return outcome;
+}
+
+TEST(ToolMain, IgnoresWhatRoslaunchAppends) {
+  const Outcome outcome = run({"--number", "7", "__name:=x", "__log:=/tmp/x.log", "a:=b"},
+                              [](int number) { return number == 7 ? kSuccess : kFailure; });
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+TEST(ToolMain, HelpSucceedsAndGoesToStandardOutput) {
+  const Outcome outcome = run({"--help"}, [](int) -> int { return kFailure; });
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("Does something."), std::string::npos);
+  EXPECT_NE(outcome.out.find("--number"), std::string::npos);
+}
+
+TEST(ToolMain, ErrorOfTheCoreBecomesOneLineAndStatusOne) {
+  const Outcome outcome =
+      run({}, [](int) -> int { throw pcrb::InvalidFile("a.pcd", 3, "two\nlines", "one"); });
+  EXPECT_EQ(outcome.status, kFailure);
+  EXPECT_EQ(outcome.err, "some_tool: a.pcd:3: found two lines, expected one\n");
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST(ToolMain, UnknownOptionIsOneLineAndStatusTwo) {
+  const Outcome outcome = run({"--nmber", "3"}, [](int) -> int { return kSuccess; });
+  EXPECT_EQ(outcome.status, kUsageError);
+  EXPECT_NE(outcome.err.find("--nmber"), std::string::npos);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+TEST(ToolMain, ChoiceTakesItsWordsAndNamesThemToWhoeverGivesAnother) {
+  CLI::App app("Chooses.");
+  int value = 0;
+  addChoice<int>(app, "--size", value, {{"small", 1}, {"large", 2}}, "of it");
+  app.parse("--size large");
+  EXPECT_EQ(value, 2);
+  try {
+    app.parse("--size 1");
+    FAIL() << "took a value for a word";
+  } catch (const CLI::ValidationError& error) {
+    EXPECT_STREQ(error.what(), "--size: 1 not in {large,small}");
+  }
+}
+
+}  // namespace
+}  // namespace pcrb_tools
