@@ -11,6 +11,10 @@ namespace {
 constexpr std::size_t kMinMatches = 3;
 constexpr std::uint32_t kNone = 0xffffffffU;
 
+}  // namespace
+
+// Not in an unnamed namespace: FeatureMatcher's index holds it, which unity builds complain of.
+
 /// nanoflann's view of features.
 struct FeatureSet {
   const std::vector<Fpfh>& values;
@@ -46,6 +50,8 @@ class FeatureTree {
                                       kFpfhSize, std::uint32_t>
       tree_;
 };
+
+namespace {
 
 /// For the chosen features the index of their nearest in a tree.
 std::vector<std::uint32_t> nearestOf(const std::vector<Fpfh>& features,
