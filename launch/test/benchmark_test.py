@@ -70,7 +70,7 @@ class BenchmarkTest(TestCase):
         self.assertLess(summary.sequences[-1].q95, 0.05)
 
     def test_server_and_registration_node_started_by_hand_both_end_with_status_0(self):
-        server = self.server(self.data, namespace=NAMESPACE, sequences='hall', kind='both', linger=60.0)
+        server = self.server(self.data, namespace=NAMESPACE, sequences='hall', kind='both', summary_hold_time=60.0)
         client = self.registration_node(method='icp')
         self.assert_ends_well(client)
         self.finished_summary()
@@ -94,7 +94,7 @@ class BenchmarkTest(TestCase):
         self.assert_rows_of(self.path('run'), self.data.of('local', 'kitchen'))
 
     def check_minimal_client(self, name):
-        server = self.server(self.data, namespace=NAMESPACE, kind='both', linger=60.0)
+        server = self.server(self.data, namespace=NAMESPACE, kind='both', summary_hold_time=60.0)
         client = self.start(Child([executable('pcrb_tools', name)]))
         self.assert_ends_well(client)
         server.interrupt()

@@ -27,7 +27,7 @@ class BridgeTest(BridgeTestCase):
         bridge = self.bridge(server, settle='nth', settle_count=updates, **{**patient, **parameters})
         rows = self.rows_of_bridge(server, bridge)
         self.assertEqual({row['scans_used'] for row in rows.values()}, {updates})
-        self.assert_same_scores(rows, self.rows_of_algorithm(second(linger=0.0), algorithm, updates, COVARIANCE), 0.05)
+        self.assert_same_scores(rows, self.rows_of_algorithm(second(summary_hold_time=0.0), algorithm, updates, COVARIANCE), 0.05)
         return server, rows
 
     def test_an_ndt_localizer(self):

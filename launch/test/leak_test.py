@@ -49,7 +49,7 @@ class LeakTest(BridgeTestCase):
         self.recorder = recorder = Recorder()
         self.addCleanup(recorder.close)
         recorder.look()
-        server = self.server(self.data, kind='both', global_guess=True, linger=60.0, **parameters)
+        server = self.server(self.data, kind='both', global_guess=True, summary_hold_time=60.0, **parameters)
         client = self.client(server)
         wait_until(client.has_new_problem, 'the first problem is announced')
         recorder.attach(f'{server.namespace}/benchmark_server')
@@ -82,7 +82,7 @@ class LeakTest(BridgeTestCase):
         self.handed_out = []
         self.recorder = recorder = Recorder()
         self.addCleanup(recorder.close)
-        server = self.localization(sequences='all', kind='both', global_guess=True, linger=60.0, **parameters)
+        server = self.localization(sequences='all', kind='both', global_guess=True, summary_hold_time=60.0, **parameters)
         wait_until(lambda: f'{server.namespace}/source' in dict(rospy.get_published_topics()), 'the server is there')
         sources = rospy.Subscriber(f'{server.namespace}/source', PointCloud2, self.take_source)
         self.addCleanup(sources.unregister)

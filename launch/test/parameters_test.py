@@ -32,14 +32,14 @@ class ParametersTest(TestCase):
     def test_all_mistakes_are_listed_at_once(self):
         server = self.server(
             self.data, root='/nowhere', run='', sequences=' ', kind='locl', presentation='both', subset=-1, seed=1.5,
-            shard='3/3', time_limit=0.0, connect_limit='long', handshake='maybe', global_guess='yes', linger=-1,
+            shard='3/3', time_limit=0.0, connect_limit='long', handshake='maybe', global_guess='yes', summary_hold_time=-1,
             map_frame='pcrb_scan', load_threads=0, colour='red', nested={'name': 1})
         self.assert_fails(
             server, r'17 mistakes', r'~root: found `/nowhere`, expected an existing folder', r'~run: must be given',
             r'~sequences: names no sequence', r'~kind: .*`locl`.* `local` or `global` or `both`',
             r'~presentation: .*`both`', r'~subset: found `-1`', r'~seed: found `1\.5`', r'~shard: found `3/3`',
             r'~time_limit: found `0', r'~connect_limit: found `long`, expected a number', r'~handshake: found `maybe`',
-            r'~global_guess: found `yes`, expected true or false', r'~linger: found `-1`',
+            r'~global_guess: found `yes`, expected true or false', r'~summary_hold_time: found `-1`',
             r'~map_frame and ~scan_frame', r'~load_threads: found `0`', r'~colour: no parameter',
             r'~nested: no parameter')
 
@@ -74,12 +74,12 @@ class ParametersTest(TestCase):
 
     def test_unknown_sequences_are_refused_and_the_known_ones_named(self):
         self.assert_fails(self.server(self.data, sequences='kitchen attic'),
-                          r'~sequences: found `attic`', r'rooms/hall rooms/kitchen')
+                          r'sequences: found `attic`', r'rooms/hall rooms/kitchen')
 
     def test_a_root_without_problems_is_refused(self):
         os.makedirs(self.path('empty'))
-        self.assert_fails(self.server(self.data, root=self.path('empty')), r'~sequences: found `all`', 'there is none')
-        self.assert_fails(self.server(self.data, root=self.data.folder()), r'~sequences: found `all`', 'there is none')
+        self.assert_fails(self.server(self.data, root=self.path('empty')), r'sequences: found `all`', 'there is none')
+        self.assert_fails(self.server(self.data, root=self.data.folder()), r'sequences: found `all`', 'there is none')
 
     def test_a_shard_without_problems_is_refused(self):
         self.assert_fails(self.server(self.data, shard='99/100'), 'no problem is left')
@@ -141,7 +141,7 @@ class ParametersTest(TestCase):
 
     def test_a_run_goes_on_only_with_the_same_content_of_the_methods_file(self):
         """As finished, when no problem is put to the method any more, and as interrupted."""
-        server = self.server(self.data, time_limit=60.0, linger=60.0, autostart=False)
+        server = self.server(self.data, time_limit=60.0, summary_hold_time=60.0, autostart=False)
         server.wait_for_output('problems')
         server.interrupt()
         server.wait()
@@ -156,7 +156,7 @@ class ParametersTest(TestCase):
         self.assert_goes_on_with_the_same_file_only(first)
 
     def test_what_a_node_set_itself_is_no_mistake_when_it_starts_again(self):
-        server = self.server(self.data, sequences='kitchen', linger=60.0)
+        server = self.server(self.data, sequences='kitchen', summary_hold_time=60.0)
         node = self.registration_node(server)
         self.assert_ends_well(node)
         self.assertTrue(rospy.has_param(f'{server.namespace}/registration_node/in_effect'))

@@ -74,7 +74,7 @@ class BridgeTestCase(TestCase):
     def localization(self, run='run', **parameters):
         """Its summary stays up until the bridge, which ends by it, has read it."""
         return self.server(self.data, run=self.path(run), presentation='localization',
-                           **{'sequences': 'hall', 'time_limit': 30.0, 'linger': 60.0, **parameters})
+                           **{'sequences': 'hall', 'time_limit': 30.0, 'summary_hold_time': 60.0, **parameters})
 
     def twin_servers(self, **parameters):
         """Two runs of the same secret, so that both put the very same problems; to be started one after the other."""

@@ -62,7 +62,7 @@ class PreparationTest(TestCase):
 
     def scored_rows(self, data_set, problems=6):
         server = self.start(Server(root=self.root, run=self.path('run'), sequences=data_set, kind='local',
-                                   subset=problems, time_limit=60.0, linger=60.0))
+                                   subset=problems, time_limit=60.0, summary_hold_time=60.0))
         name = f'{server.namespace}/registration_node'
         rospy.set_param(name, {'method': 'gicp'})
         self.addCleanup(rospy.delete_param, name)

@@ -38,7 +38,7 @@ class SurvivalTest(TestCase):
 
     def prepared_run(self, name):
         """A run folder whose secret is drawn, and none of whose problems is done."""
-        server = self.server(self.data, namespace=NAMESPACE, run=self.path(name), autostart=False, linger=30.0)
+        server = self.server(self.data, namespace=NAMESPACE, run=self.path(name), autostart=False, summary_hold_time=30.0)
         server.wait_for_output('0/60 problems')
         server.kill()
         return server
@@ -61,7 +61,7 @@ class SurvivalTest(TestCase):
         """Plays a run to its end, killing the server up to `kills` times; numbers of rows at the kills."""
         client = self.minimal_client()
         killed_at = []
-        server = self.start(fresh.again(autostart=True, run=run, linger=60.0))
+        server = self.start(fresh.again(autostart=True, run=run, summary_hold_time=60.0))
         while len(killed_at) < kills and not client.ended():
             # The first one of a run comes when some problems are done and most are not.
             self.wait_for_a_random_moment(server, moments, client.ended, least=0 if killed_at else 1)
@@ -96,7 +96,7 @@ class SurvivalTest(TestCase):
     def test_registration_node_goes_on_with_a_server_that_was_killed(self):
         rospy.set_param(f'{NAMESPACE}/registration_node', {'method': 'icp'})
         client = self.start(Child([executable('pcrb_tools', 'registration_node')], NAMESPACE))
-        server = self.server(self.data, namespace=NAMESPACE, linger=60.0)
+        server = self.server(self.data, namespace=NAMESPACE, summary_hold_time=60.0)
         for count in 3, 10, 20:
             wait_until(lambda: len(server.rows()) >= count, f'{count} problems are done')
             server.kill()

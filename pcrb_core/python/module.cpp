@@ -14,10 +14,10 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/correspondence_error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
-#include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
+#include "pcrb_core/run/results_store.hpp"
 
 namespace py = pybind11;
 

@@ -9,6 +9,8 @@
 
 #include "bridge/bridge_parameters.hpp"
 #include "pcrb_server/parameter_table.hpp"
+#include "replay/replay.hpp"
+#include "server/server_parameters.hpp"
 #include "supervisor/node_supervisor.hpp"
 #include "verdict/evaluation.hpp"
 
@@ -21,6 +23,8 @@ const std::string kRepository = PCRB_REPOSITORY;
 const std::map<std::string, const ParameterTable*> kTables{
     {"localization_bridge", &kBridgeParameters},
     {"node_supervisor", &kSupervisorParameters},
+    {"benchmark_server", &kServerParameters},
+    {"replay", &kReplayParameters},
     {"evaluation_test", &kEvaluationParameters}};
 
 /// Defaults of launch arguments that are others than the node's, on purpose.
@@ -124,12 +128,15 @@ int expectDefaults(const std::string& document, const ParameterTable& table) {
 
 TEST(ParameterDocuments, LaunchFilesGiveParametersThatNodesHaveWithTheSameDefaults) {
   EXPECT_GT(LaunchFile("localization.launch").checked(), 10);
+  EXPECT_GT(LaunchFile("benchmark.launch").checked(), 10);
+  EXPECT_GT(LaunchFile("replay.launch").checked(), 10);
   EXPECT_GT(LaunchFile("evaluate.test").checked(), 5);
 }
 
 TEST(ParameterDocuments, DocumentsStateTheDefaultsOfTheNodes) {
   EXPECT_GT(expectDefaults("regression_test.md", kEvaluationParameters), 3);
   EXPECT_GT(expectDefaults("your_node.md", kBridgeParameters), 5);
+  EXPECT_GT(expectDefaults("interface.md", kServerParameters), 15);
 }
 
 TEST(ParameterDocuments, EveryParameterHasAHelpAndAName) {
@@ -137,7 +144,8 @@ TEST(ParameterDocuments, EveryParameterHasAHelpAndAName) {
     std::set<std::string> names;
     for (const auto& parameter : *table) {
       EXPECT_FALSE(parameter.help.empty()) << node << ": " << parameter.name;
-      if (!parameter.name.empty()) EXPECT_TRUE(names.insert(parameter.name).second) << node;
+      const bool is_new = parameter.name.empty() || names.insert(parameter.name).second;
+      EXPECT_TRUE(is_new) << node << ": " << parameter.name;
     }
   }
 }

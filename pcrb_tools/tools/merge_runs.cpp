@@ -1,6 +1,7 @@
+#include "pcrb_core/run/merge_runs.hpp"
+
 #include <iostream>
 
-#include "benchmarking/merge_tool.hpp"
 #include "common/tool_main.hpp"
 
 int main(int argc, char** argv) {
@@ -11,11 +12,11 @@ int main(int argc, char** argv) {
       "Exit status: 0 only if every shard's node has answered; all is written before that is "
       "said.\n"
       "Example: merge_runs ~/pcrb/run/shards/* -o ~/pcrb/run");
-  pcrb_tools::MergeOptions options;
+  pcrb::MergeOptions options;
   app.add_option("shards", options.runs, "folders of the shards' results")->required();
   app.add_option("-o,--output", options.output, "folder of the merged run")->required();
   return pcrb_tools::runTool(app, argc, argv, [&] {
-    const pcrb_tools::MergeReport report = runMergeTool(options);
+    const pcrb::MergeReport report = mergeRuns(options);
     std::cout << report.summary << std::flush;
     std::cerr << report.defects << std::flush;
     return report.defects.empty() ? pcrb_tools::kSuccess : pcrb_tools::kFailure;

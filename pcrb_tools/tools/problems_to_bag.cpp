@@ -23,25 +23,27 @@ int main(int argc, char** argv) {
   app.add_option("--presentation", presentation, "registration or localization")
       ->check(CLI::IsMember({"registration", "localization"}))
       ->capture_default_str();
-  app.add_flag("--upright", options.problems.upright,
+  app.add_flag("--yaw-only,--upright", options.problems.configuration.presentation.yaw_only,
                "localization without VIEWPOINT: turn scans about z only; gives the tilt away");
-  app.add_option("--subset", options.problems.subset, "number of problems to draw, 0 = all")
+  app.add_option("--subset", options.problems.configuration.selection.subset,
+                 "number of problems to draw, 0 = all")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--seed", options.problems.seed, "of the subset")
+  app.add_option("--seed", options.problems.configuration.selection.seed, "seed of the draw")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_flag("--no-truth", no_truth,
                "what a client of the server would see, in a secret order, with random ids");
   app.add_option("--key", options.key, "file for the key with which score_poses scores");
-  app.add_option("--scan-frame", options.problems.scan_frame, "of the source, in localization")
+  app.add_option("--scan-frame", options.problems.scan_frame,
+                 "frame of the source, in localization")
       ->capture_default_str();
   app.add_option("--map-frame", options.problems.map_frame)->capture_default_str();
   app.add_flag("--compress", options.bag.compress, "LZ4");
   app.add_flag("--force", options.bag.force, "replace an output that this tool did not make");
   return pcrb_tools::runTool(app, argc, argv, [&] {
-    options.problems.truth = !no_truth;
-    options.problems.presentation = pcrb::presentationFromString(presentation);
+    options.problems.publish_ground_truth = !no_truth;
+    options.problems.configuration.presentation.kind = pcrb::presentationFromString(presentation);
     runProblemsBagTool(options);
     return pcrb_tools::kSuccess;
   });

@@ -27,20 +27,22 @@ void addOptions(CLI::App& app, Options& options) {
                  "a bag, or a text of rows `id` and the first three rows of a 4 x 4 matrix, or "
                  "`timestamp tx ty tz qx qy qz qw`")
       ->required();
-  app.add_option("--topic", problems.poses.topic, "of a bag");
-  app.add_option("--map-frame", problems.poses.map_frame, "of the poses in a bag")
+  app.add_option("--topic", problems.poses.topic, "topic of the poses in a bag");
+  app.add_option("--map-frame", problems.poses.map_frame, "frame of the poses in a bag")
       ->capture_default_str();
   auto* run = app.add_option("--run", problems.run, "folder of the results of problems");
   run->needs(file);
-  app.add_option("--key", problems.key, "of a bag of problems")->needs(file);
+  app.add_option("--key", problems.key, "key of a bag of problems")->needs(file);
   app.add_option("--frame", options.frame,
                  "of poses without a key: data_set (that of the clouds' files) or map (that in "
                  "which the server hands clouds out; the same unless coordinates are large)")
       ->check(CLI::IsMember({"data_set", "map"}))
       ->needs(file)
       ->capture_default_str();
-  app.add_option("--subset", problems.subset, "without a key: that of the run")->needs(file);
-  app.add_option("--seed", problems.seed, "without a key: of the subset")->needs(file);
+  app.add_option("--subset", problems.subset,
+                 "without a key: number of problems that the run draws")
+      ->needs(file);
+  app.add_option("--seed", problems.seed, "without a key: seed of that draw")->needs(file);
   app.add_option("--output", tracking.output, "folder of the results of a sequence")
       ->needs(sequence);
   app.add_option("--scans", tracking.scans,
@@ -51,7 +53,7 @@ void addOptions(CLI::App& app, Options& options) {
       ->check(CLI::NonNegativeNumber)
       ->needs(sequence)
       ->capture_default_str();
-  app.add_option("--delta", tracking.delta, "scans, of relative errors")
+  app.add_option("--delta", tracking.delta, "number of scans that relative errors span")
       ->check(CLI::PositiveNumber)
       ->needs(sequence)
       ->capture_default_str();
@@ -65,7 +67,8 @@ void addOptions(CLI::App& app, Options& options) {
 int score(Options& options) {
   if (!options.problems.problem_file.empty()) {
     if (options.problems.run.empty()) throw pcrb::InvalidParameter("--run: must be given");
-    options.problems.in_dataset_frame = options.frame == "data_set";
+    options.problems.pose_frame =
+        options.frame == "data_set" ? pcrb::PoseFrame::kDataset : pcrb::PoseFrame::kMap;
     runProblemScoring(options.problems, std::cout);
     return pcrb_tools::kSuccess;
   }

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   app.add_flag("--no-truth", no_truth,
                "only what a node under test may see: the map, the initial pose with the first "
                "scan, scans in their sensor's frame");
-  app.add_option("--scan-frame", options.sequence.scan_frame, "of the scans without truth")
+  app.add_option("--scan-frame", options.sequence.scan_frame, "frame of the scans without truth")
       ->capture_default_str();
   app.add_option("--map-frame", options.sequence.map_frame)->capture_default_str();
   app.add_option("--scans", options.scans, "write which scan has which stamp, for score_poses");
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   app.add_flag("--force", options.bag.force, "replace an output that this tool did not make");
   return pcrb_tools::runTool(app, argc, argv, [&] {
     options.bag.period = 1.0 / rate;
-    options.sequence.truth = !no_truth;
+    options.sequence.publish_ground_truth = !no_truth;
     runSequenceBagTool(options);
     return pcrb_tools::kSuccess;
   });

@@ -23,11 +23,11 @@ Presentation presentForLocalization(const Transform& P, const Transform& V) {
 
 Transform secretSensorPose(const Secret& secret, const std::string& subject, bool has_viewpoint,
                            const Transform& viewpoint, const Eigen::Vector3d& centroid,
-                           bool upright) {
+                           bool yaw_only) {
   if (has_viewpoint) return viewpoint * Transform(secret.yaw(subject));
   Transform V = Transform::Identity();
   V.translation() = centroid;
-  V.linear() = (upright ? secret.yaw(subject) : secret.rotation(subject)).toRotationMatrix();
+  V.linear() = (yaw_only ? secret.yaw(subject) : secret.rotation(subject)).toRotationMatrix();
   return V;
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "pcrb_core/point_cloud.hpp"
+#include "pcrb_core/pose_covariance.hpp"
 #include "pcrb_core/transform.hpp"
 
 /// The one place where the suite's types become ROS messages and back.
@@ -82,18 +83,6 @@ std_msgs::Header makeHeader(const std::string& frame, const ros::Time& stamp);
 /// @throws InvalidProblem  for non-finite numbers or a zero quaternion; others are normalised.
 Transform fromMessage(const geometry_msgs::Pose& pose);
 Transform fromMessage(const geometry_msgs::Transform& transform);
-
-/// Row-major x y z rx ry rz, about the axes of the frame that the pose is in.
-using PoseCovariance = std::array<double, 36>;
-
-/// The same covariance about the axes of another frame.
-PoseCovariance rotatedCovariance(const PoseCovariance& in_parent,
-                                 const Eigen::Matrix3d& R_map_parent);
-
-/// The covariance of the pose of a frame `b` that is mounted on `a`, of that of `a`: a rotation
-/// moves what is mounted away from its origin. First order.
-PoseCovariance mountedCovariance(const PoseCovariance& of_a, const Transform& T_map_a,
-                                 const Transform& T_a_b);
 
 /// None if all numbers are zero, which is what a node leaves that has none, or if one is not
 /// finite.

@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -66,6 +67,11 @@ class NodeParameters {
 
   void addMistake(const std::string& mistake) { mistakes_.push_back(mistake); }
 
+  /// Names what a parameter was called before: it is read where the new name is not given.
+  void acceptOldName(const std::string& name, const std::string& old_name) {
+    old_names_[name] = old_name;
+  }
+
   /// Names a parameter that the node itself sets: one that an earlier start left is no mistake.
   void allowOwnParameter(const std::string& name) { asked_.insert(name); }
 
@@ -85,6 +91,7 @@ class NodeParameters {
   ParameterTable table_;
   ros::NodeHandle node_;
   std::set<std::string> asked_;
+  std::map<std::string, std::string> old_names_;  ///< by name
   std::vector<std::string> mistakes_;
 };
 

@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/result.hpp"
+#include "pcrb_core/run/result.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/topics.hpp"
 

@@ -7,8 +7,7 @@
 #include "pcrb_core/problem/dataset.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/playback/playback.hpp"
-#include "playback/bounded_map.hpp"
-#include "playback/scene_frames.hpp"
+#include "playback/scene_parts.hpp"
 
 namespace pcrb {
 
@@ -67,7 +66,7 @@ class SequencePlayback : public Playback {
       local_origin_ = chooseLocalOrigin(map);
       map_ = makeLocal(map, local_origin_);
     }
-    if (!options.truth) requireViewpoint(first, 0);
+    if (!options.publish_ground_truth) requireViewpoint(first, 0);
   }
 
   std::size_t size() const override { return names_.size(); }
@@ -85,11 +84,11 @@ class SequencePlayback : public Playback {
     } else {
       scene.title += " (no VIEWPOINT: where the sensor was is not known)";
     }
-    if (options_.truth) {
+    if (options_.publish_ground_truth) {
       showTruth(scene, stamp, read_cloud, sensor);
     } else {
       requireViewpoint(read_cloud, position_);
-      handOut(scene, stamp, read_cloud, *sensor);
+      showToNode(scene, stamp, read_cloud, *sensor);
     }
     ++position_;
     return scene;
@@ -142,8 +141,8 @@ class SequencePlayback : public Playback {
   }
 
   /// What a node under test gets.
-  void handOut(Scene& scene, const ros::Time& stamp, const DatasetCloud& read_cloud,
-               const Transform& sensor) {
+  void showToNode(Scene& scene, const ros::Time& stamp, const DatasetCloud& read_cloud,
+                  const Transform& sensor) {
     PointCloud origin_only;
     origin_only.local_origin = local_origin_;
     frames_.set(scene, stamp, options_.map_file.empty() ? origin_only : map_);

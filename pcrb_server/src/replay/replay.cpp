@@ -4,10 +4,24 @@
 #include <iostream>
 
 #include "pcrb_core/io/atomic_file.hpp"
-#include "pcrb_server/playback/scan_list.hpp"
 #include "ros/node_calls.hpp"
 
 namespace pcrb {
+
+namespace {
+
+constexpr std::uint32_t kSceneQueue = 10;
+
+}  // namespace
+
+void ScenePublisher::publish(const Scene& scene) {
+  forEachMessage(scene, [this](const char* topic, const auto& message, bool is_latched) {
+    using Message = std::decay_t<decltype(message)>;
+    ros::Publisher& publisher = publishers_[topic];
+    if (!publisher) publisher = node_.advertise<Message>(topic, kSceneQueue, is_latched);
+    publisher.publish(message);
+  });
+}
 
 Replay::Replay(const ReplayParameters& parameters, ShutdownRequest& shutdown)
     : parameters_(parameters),

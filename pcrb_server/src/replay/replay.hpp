@@ -1,20 +1,61 @@
 #pragma once
 
 #include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
 #include <ros/spinner.h>
 
 #include <chrono>
 #include <condition_variable>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "pcrb_server/node_main.hpp"
-#include "replay/replay_parameters.hpp"
-#include "replay/scene_publisher.hpp"
+#include "pcrb_server/parameter_table.hpp"
+#include "pcrb_server/playback/playback.hpp"
+#include "pcrb_server/playback/scene.hpp"
 
 namespace pcrb {
+
+/// Parameters of `replay`: what is shown, and how.
+struct ReplayParameters {
+  enum class Subject { kSequence, kProblems, kRun };
+
+  Subject subject = Subject::kSequence;
+  SequenceOptions sequence;
+  ProblemsOptions problems;
+  RunOptions run;
+
+  double rate = 2.0;  ///< scenes per second
+  bool loop = false;
+  bool autostart = true;
+  bool keep_alive = false;  ///< after the last scene: stay, for viewers that come later
+  std::string stamps_file;  ///< which scan was published when; empty = not written
+};
+
+extern const ParameterTable kReplayParameters;
+
+/// Reads and checks all private parameters.
+///
+/// @throws InvalidParameter  listing every mistake.
+ReplayParameters readReplayParameters();
+
+std::unique_ptr<Playback> makePlayback(const ReplayParameters& parameters);
+
+/// Publishes scenes; what is latched in a bag is latched here.
+class ScenePublisher {
+ public:
+  explicit ScenePublisher(const ros::NodeHandle& node) : node_(node) {}
+
+  void publish(const Scene& scene);
+
+ private:
+  ros::NodeHandle node_;
+  std::map<std::string, ros::Publisher> publishers_;
+};
 
 /// Shows a playback at its rate, on the steady clock; can be paused, stepped and looped.
 class Replay {

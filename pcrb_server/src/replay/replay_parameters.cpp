@@ -1,12 +1,41 @@
-#include "replay/replay_parameters.hpp"
-
 #include <filesystem>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/node_parameters.hpp"
 #include "pcrb_server/sequence_path.hpp"
+#include "replay/replay.hpp"
 
 namespace pcrb {
+
+const ParameterTable kReplayParameters{
+    {"", "", "", "What is shown"},
+    {"root", "", "", "folder in the common layout; with run: instead of the one that the run used"},
+    {"sequence", "", "", "sequence, or data_set/sequence"},
+    {"problems", "", "local|global", "kind of the sequence's problems, shown instead of its scans"},
+    {"run", "", "", "folder of a run, shown instead of a sequence"},
+    {"rate", "2", "Hz", "scenes per second"},
+    {"loop", "false", "", "begin again after the last scene"},
+    {"autostart", "true", "", "start without the service ~start"},
+    {"keep_alive", "false", "", "stay after the last scene, for viewers that come later"},
+    {"map_frame", "map", "", "frame of the map"},
+    {"", "", "", "Of a sequence"},
+    {"map_file", "", "",
+     "cloud in the sequence's frame (a name in its folder or an absolute path) instead of the map "
+     "that grows"},
+    {"exclude", "", "", "files that are no scans"},
+    {"map_leaf", "0", "m", "edge of the growing map's voxels, 0 = the data set's"},
+    {"map_points", "200000", "", "limit of the growing map, beyond which voxels double"},
+    {"publish_ground_truth", "true", "",
+     "false: only what a node under test may see, the scan in its sensor's frame, the map file, "
+     "and "
+     "the initial pose with the first scan"},
+    {"scan_frame", "pcrb_scan", "", "frame of the scan without ground truth"},
+    {"stamps_file", "", "",
+     "list of which scan was published when, written at the end, for score_poses --scans"},
+    {"", "", "", "Of a run"},
+    {"sequences", "all", "", "sequences, data sets or data_set/sequence, separated by blanks"},
+    {"order", "finished", "finished|worst|best", "order of the problems"},
+};
 
 namespace {
 
@@ -18,7 +47,7 @@ void readSequence(NodeParameters& reader, const std::string& root, const std::st
                   ReplayParameters& parameters) {
   SequenceOptions& sequence = parameters.sequence;
   reader.check([&] { sequence.folder = findSequenceFolder(root, word); });
-  const std::string map = reader.string("map_file", "");
+  const std::string map = reader.string("map_file");
   const std::filesystem::path path(map);
   if (!map.empty()) {
     sequence.map_file = path.is_absolute() ? map : sequence.folder + "/" + map;
@@ -26,42 +55,43 @@ void readSequence(NodeParameters& reader, const std::string& root, const std::st
       reader.addMistake("~map_file: found `" + sequence.map_file + "`, expected a cloud's file");
     }
   }
-  sequence.excluded = reader.words("exclude", "");
-  sequence.map_leaf = reader.number("map_leaf", 0.0, 0.0, 1e3);
-  sequence.map_points =
-      static_cast<std::size_t>(reader.integer("map_points", 200000, 1, kMaxMapPoints));
-  sequence.truth = reader.boolean("truth", true);
-  sequence.map_frame = reader.string("map_frame", "map");
-  sequence.scan_frame = reader.string("scan_frame", "pcrb_scan");
+  sequence.excluded = reader.words("exclude");
+  sequence.map_leaf = reader.number("map_leaf", 0.0, 1e3);
+  sequence.map_points = static_cast<std::size_t>(reader.integer("map_points", 1, kMaxMapPoints));
+  sequence.publish_ground_truth = reader.boolean("publish_ground_truth");
+  sequence.map_frame = reader.string("map_frame");
+  sequence.scan_frame = reader.string("scan_frame");
   parameters.stamps_file = reader.path("stamps_file", "");
 }
 
 void readProblems(NodeParameters& reader, const std::string& root, const std::string& word,
                   const std::string& kind, ReplayParameters& parameters) {
   parameters.subject = ReplayParameters::Subject::kProblems;
-  parameters.problems.root = root;
-  parameters.problems.sequences = {word};
-  parameters.problems.kinds = {kindFromString(kind)};
-  parameters.problems.map_frame = reader.string("map_frame", "map");
+  ProblemSelection& selection = parameters.problems.configuration.selection;
+  selection.root = root;
+  selection.sequences = {word};
+  selection.kinds = {kindFromString(kind)};
+  parameters.problems.map_frame = reader.string("map_frame");
 }
 
 void readRun(NodeParameters& reader, const std::string& root, ReplayParameters& parameters) {
   parameters.subject = ReplayParameters::Subject::kRun;
   parameters.run.root = root;
-  parameters.run.sequences = reader.words("sequences", "all");
-  const std::string order = reader.choice("order", "finished", {"finished", "worst", "best"});
+  parameters.run.sequences = reader.words("sequences");
+  const std::string order = reader.choice("order");
   if (order == "worst") parameters.run.order = RunOptions::Order::kWorst;
   if (order == "best") parameters.run.order = RunOptions::Order::kBest;
-  parameters.run.map_frame = reader.string("map_frame", "map");
+  parameters.run.map_frame = reader.string("map_frame");
 }
 
 }  // namespace
 
 ReplayParameters readReplayParameters() {
-  NodeParameters reader;
+  NodeParameters reader(kReplayParameters);
+  reader.acceptOldName("publish_ground_truth", "truth");
   ReplayParameters parameters;
   const std::string root = reader.path("root", "");
-  const std::string sequence = reader.string("sequence", "");
+  const std::string sequence = reader.string("sequence");
   parameters.run.run = reader.path("run", "");
   const std::string kind = reader.choice("problems", "", {"", "local", "global"});
   if (sequence.empty() == parameters.run.run.empty()) {
@@ -75,10 +105,10 @@ ReplayParameters readReplayParameters() {
   } else {
     readSequence(reader, root, sequence, parameters);
   }
-  parameters.rate = reader.number("rate", 2.0, kMinRate, kMaxRate);
-  parameters.loop = reader.boolean("loop", false);
-  parameters.autostart = reader.boolean("autostart", true);
-  parameters.keep_alive = reader.boolean("keep_alive", false);
+  parameters.rate = reader.number("rate", kMinRate, kMaxRate);
+  parameters.loop = reader.boolean("loop");
+  parameters.autostart = reader.boolean("autostart");
+  parameters.keep_alive = reader.boolean("keep_alive");
   if (parameters.loop && !parameters.stamps_file.empty()) {
     reader.addMistake("~stamps_file: cannot be written with ~loop, which has no end");
   }

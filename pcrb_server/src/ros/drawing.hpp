@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "pcrb_core/evaluation/result.hpp"
 #include "pcrb_core/point_cloud.hpp"
+#include "pcrb_core/run/result.hpp"
 
 namespace pcrb {
 

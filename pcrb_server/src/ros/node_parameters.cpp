@@ -97,7 +97,9 @@ std::vector<std::string> NodeParameters::words(const std::string& name) {
 
 bool NodeParameters::find(const std::string& name, XmlRpc::XmlRpcValue& value) {
   asked_.insert(name);
-  return node_.getParam(name, value);
+  if (node_.getParam(name, value)) return true;
+  const auto old_name = old_names_.find(name);
+  return old_name != old_names_.end() && find(old_name->second, value);
 }
 
 void NodeParameters::mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,

@@ -5,19 +5,18 @@
 #include <ros/spinner.h>
 
 #include <atomic>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "pcrb_core/run/run_plan.hpp"
+#include "pcrb_core/run/run_record.hpp"
 #include "pcrb_server/node_main.hpp"
-#include "server/exchange.hpp"
 #include "server/problem_loader.hpp"
+#include "server/problem_session.hpp"
 #include "server/publications.hpp"
-#include "server/run_plan.hpp"
-#include "server/run_progress.hpp"
-#include "server/run_record.hpp"
+#include "server/replies.hpp"
+#include "server/run_clients.hpp"
 #include "server/server_parameters.hpp"
-#include "server/tf_lookup.hpp"
 
 namespace pcrb {
 
@@ -44,10 +43,7 @@ class BenchmarkServer {
   void offerServices();
   void offerControls();
   void waitForStart();
-  void waitForListener();
   bool serve(PreparedProblem prepared);
-  bool waitForClient();
-  void noteClients(const std::set<std::string>& names);
   Announcement nextAnnouncement(const PreparedProblem& prepared);
   void waitForReaders(bool had_readers);
   bool conclude();
@@ -57,16 +53,16 @@ class BenchmarkServer {
   RunPlan plan_;
   RunRecord record_;
   std::vector<PlannedProblem> remaining_;
-  std::set<std::string> clients_;  ///< who answers, as far as it is recorded
-  std::size_t done_ = 0;           ///< problems that have a result
+  std::size_t done_ = 0;  ///< problems that have a result
   ros::Time last_stamp_;
   std::atomic<bool> is_paused_;
 
   ros::NodeHandle node_;
   ros::CallbackQueue service_queue_;
   TfLookup tf_;
-  Exchange exchange_;
+  ProblemSession session_;
   Publications publications_;
+  RunClients clients_;
   ProblemLoader loader_;
   std::vector<ros::ServiceServer> services_;
   ros::AsyncSpinner spinner_;          ///< for subscriptions: tf

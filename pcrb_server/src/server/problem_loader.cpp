@@ -10,7 +10,11 @@ constexpr std::size_t kAhead = 2;  // problems prepared before they are asked fo
 
 ProblemLoader::ProblemLoader(const ServerParameters& parameters, const Secret& secret,
                              const std::vector<PlannedProblem>& problems)
-    : parameters_(parameters), problems_(problems), poser_(parameters, secret), allowed_(kAhead) {}
+    : parameters_(parameters),
+      problems_(problems),
+      poser_(parameters.configuration.selection.root, parameters.configuration.presentation, secret,
+             parameters.loading),
+      allowed_(kAhead) {}
 
 ProblemLoader::~ProblemLoader() {
   {
@@ -53,13 +57,14 @@ void ProblemLoader::work() {
 PreparedProblem ProblemLoader::prepare(std::size_t position) {
   PreparedProblem prepared;
   static_cast<PosedProblem&>(prepared) = poser_.pose(problems_[position]);
-  prepared.source_message = serializer_.serialize(
-      prepared.source->cloud, prepared.presentation.applied, parameters_.sourceFrame());
+  prepared.source_message =
+      serializer_.serialize(prepared.source->cloud, prepared.presentation.applied,
+                            parameters_.frames.source(parameters_.configuration.presentation));
   prepared.publishes_target =
       position == 0 || problems_[position].target_path != problems_[position - 1].target_path;
   if (prepared.publishes_target) {
-    prepared.target_message =
-        serializer_.serialize(prepared.target->cloud, Transform::Identity(), parameters_.map_frame);
+    prepared.target_message = serializer_.serialize(prepared.target->cloud, Transform::Identity(),
+                                                    parameters_.frames.map);
   }
   return prepared;
 }

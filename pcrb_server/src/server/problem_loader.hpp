@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "pcrb_core/problem/secret.hpp"
-#include "server/problem_poser.hpp"
-#include "server/run_plan.hpp"
+#include "pcrb_core/run/problem_poser.hpp"
+#include "pcrb_core/run/run_plan.hpp"
 #include "server/serialized_cloud.hpp"
 #include "server/server_parameters.hpp"
 

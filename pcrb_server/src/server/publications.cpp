@@ -9,11 +9,11 @@
 
 #include <cmath>
 
+#include "pcrb_core/run/scoring.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/topics.hpp"
 #include "ros/drawing.hpp"
-#include "server/problem_message.hpp"
-#include "server/scoring.hpp"
+#include "ros/problem_messages.hpp"
 
 namespace pcrb {
 
@@ -39,20 +39,20 @@ Publications::Publications(ros::NodeHandle& node, const ServerParameters& parame
   summary_ = node.advertise<pcrb_msgs::Summary>(topics::kSummary, 1, true);
   source_aligned_ = node.advertise<sensor_msgs::PointCloud2>(topics::kSourceAligned, 1);
   markers_ = node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, 1);
-  if (!parameters.debug) return;
+  if (!parameters.configuration.debug) return;
   truth_ = node.advertise<geometry_msgs::PoseStamped>(topics::kDebugTruth, 10);
   perturbation_ = node.advertise<geometry_msgs::PoseStamped>(topics::kDebugPerturbation, 10);
 }
 
-void Publications::announceTarget(const PreparedProblem& prepared,
-                                  const Announcement& announcement) {
+void Publications::publishTarget(const PreparedProblem& prepared,
+                                 const Announcement& announcement) {
   const Eigen::Vector3d& origin = prepared.target->cloud.local_origin;
   is_earth_known_ |= !origin.isZero();
   if (is_earth_known_) {
-    broadcast("earth", parameters_.map_frame, Transform(Eigen::Translation3d(origin)),
+    broadcast("earth", parameters_.frames.map, Transform(Eigen::Translation3d(origin)),
               announcement.stamp, true);
   }
-  broadcast(parameters_.map_frame, "pcrb_target",
+  broadcast(parameters_.frames.map, "pcrb_target",
             Transform(Eigen::Translation3d(boxCenter(prepared.target->cloud))), announcement.stamp,
             true);
   target_stamp_ = announcement.stamp;
@@ -61,32 +61,35 @@ void Publications::announceTarget(const PreparedProblem& prepared,
   target_.publish(target);
 }
 
-void Publications::announce(const PreparedProblem& prepared, const Announcement& announcement) {
-  if (prepared.publishes_target) announceTarget(prepared, announcement);
-  problem_.publish(problemMessage(prepared, announcement, target_stamp_, parameters_));
+void Publications::publishProblem(const PreparedProblem& prepared,
+                                  const Announcement& announcement) {
+  if (prepared.publishes_target) publishTarget(prepared, announcement);
+  problem_.publish(problemMessage(prepared, announcement, target_stamp_, parameters_.configuration,
+                                  parameters_.frames));
 }
 
-void Publications::handOut(const PreparedProblem& prepared, const Announcement& announcement) {
-  if (hasGuess(prepared, parameters_)) {
-    initial_pose_.publish(initialPoseMessage(prepared, announcement.stamp, parameters_));
+void Publications::publishSource(const PreparedProblem& prepared,
+                                 const Announcement& announcement) {
+  if (hasGuess(prepared, parameters_.configuration)) {
+    initial_pose_.publish(initialPoseMessage(prepared, announcement.stamp, parameters_.frames));
   }
   SerializedCloud source = prepared.source_message;
   source.setStamp(announcement.stamp);
   source_.publish(source);
-  if (parameters_.debug) showTruth(prepared, announcement);
+  if (parameters_.configuration.debug) showTruth(prepared, announcement);
 }
 
 void Publications::showTruth(const PreparedProblem& prepared, const Announcement& announcement) {
-  auto pose = withHeader<geometry_msgs::PoseStamped>(parameters_.map_frame, announcement.stamp);
+  auto pose = withHeader<geometry_msgs::PoseStamped>(parameters_.frames.map, announcement.stamp);
   pose.pose = toMessage(prepared.presentation.applied.inverse());
   truth_.publish(pose);
   pose.pose = toMessage(prepared.P);
   perturbation_.publish(pose);
 }
 
-void Publications::finish(const PreparedProblem& prepared, const Announcement& announcement,
-                          const Result& result) {
-  auto message = withHeader<pcrb_msgs::Result>(parameters_.map_frame, announcement.stamp);
+void Publications::publishResult(const PreparedProblem& prepared, const Announcement& announcement,
+                                 const Result& result) {
+  auto message = withHeader<pcrb_msgs::Result>(parameters_.frames.map, announcement.stamp);
   message.problem_id = announcement.problem_id;
   message.data_set = result.key.data_set;
   message.kind = kindNumber(result.key.kind);
@@ -105,9 +108,9 @@ void Publications::finish(const PreparedProblem& prepared, const Announcement& a
 
 void Publications::showReply(const PreparedProblem& prepared, const Announcement& announcement,
                              const Result& result) {
-  const std_msgs::Header in_map = makeHeader(parameters_.map_frame, announcement.stamp);
+  const std_msgs::Header in_map = makeHeader(parameters_.frames.map, announcement.stamp);
   const Transform reply = scoredPose(prepared, result);
-  broadcast(parameters_.map_frame, "pcrb_reply", reply, announcement.stamp, false);
+  broadcast(parameters_.frames.map, "pcrb_reply", reply, announcement.stamp, false);
   const Transform T_map_source = prepared.presentation.residual(reply);
   if (source_aligned_.getNumSubscribers() > 0) {
     source_aligned_.publish(toMessage(prepared.source->cloud, T_map_source, in_map));
@@ -131,7 +134,7 @@ void Publications::broadcast(const std::string& parent, const std::string& child
   }
 }
 
-void Publications::summary(const std::vector<SequenceSummary>& summaries, bool finished) {
+void Publications::publishSummary(const std::vector<SequenceSummary>& summaries, bool finished) {
   auto message = withHeader<pcrb_msgs::Summary>("", ros::Time::now());
   message.finished = finished ? 1 : 0;
   for (const auto& summary : summaries) {

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "pcrb_core/evaluation/metric.hpp"
-#include "pcrb_core/evaluation/result.hpp"
-#include "pcrb_core/evaluation/summary.hpp"
+#include "pcrb_core/run/result.hpp"
+#include "pcrb_core/run/summary.hpp"
+#include "ros/problem_messages.hpp"
 #include "ros/topic_peers.hpp"
 #include "server/problem_loader.hpp"
-#include "server/problem_message.hpp"
 #include "server/server_parameters.hpp"
 
 namespace pcrb {
@@ -25,16 +25,16 @@ class Publications {
   Publications(ros::NodeHandle& node, const ServerParameters& parameters);
 
   /// Publishes the target, if it has changed, and the problem.
-  void announce(const PreparedProblem& prepared, const Announcement& announcement);
+  void publishProblem(const PreparedProblem& prepared, const Announcement& announcement);
 
   /// Publishes the initial guess, where there is one, and the source.
-  void handOut(const PreparedProblem& prepared, const Announcement& announcement);
+  void publishSource(const PreparedProblem& prepared, const Announcement& announcement);
 
   /// Publishes a stored result, and where the reply puts the source.
-  void finish(const PreparedProblem& prepared, const Announcement& announcement,
-              const Result& result);
+  void publishResult(const PreparedProblem& prepared, const Announcement& announcement,
+                     const Result& result);
 
-  void summary(const std::vector<SequenceSummary>& summaries, bool finished);
+  void publishSummary(const std::vector<SequenceSummary>& summaries, bool finished);
 
   bool hasSummaryReaders() const { return summary_.getNumSubscribers() > 0; }
 
@@ -42,7 +42,7 @@ class Publications {
   std::set<std::string> listeners() const { return listeners_.names(); }
 
  private:
-  void announceTarget(const PreparedProblem& prepared, const Announcement& announcement);
+  void publishTarget(const PreparedProblem& prepared, const Announcement& announcement);
   void showReply(const PreparedProblem& prepared, const Announcement& announcement,
                  const Result& result);
   void showTruth(const PreparedProblem& prepared, const Announcement& announcement);

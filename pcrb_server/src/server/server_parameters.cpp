@@ -4,127 +4,127 @@
 #include <filesystem>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/number.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/node_parameters.hpp"
 
 namespace pcrb {
 
+const ParameterTable kServerParameters{
+    {"", "", "", "The run"},
+    {"root", kRequired, "", "folder in the common layout, <root>/<data set>/<sequence>_<kind>.txt"},
+    {"run", kRequired, "",
+     "folder of the results; with results of the same configuration the run goes on"},
+    {"under_test", "", "",
+     "name of what is benchmarked; a run goes on only under the same, and with a client of the "
+     "same "
+     "private parameters and, if this is empty, of the same node name"},
+    {"", "", "", "Problems"},
+    {"sequences", "all", "", "sequences, data sets or data_set/sequence, separated by blanks"},
+    {"kind", "local", "local|global|both", "kind of the problems"},
+    {"subset", "0", "", "number of problems drawn over all sequences, 0 = all"},
+    {"seed", "1", "", "seed of that draw"},
+    {"shard", "0/1", "", "i/N: the i-th of N disjoint parts"},
+    {"", "", "", "Protocol"},
+    {"presentation", "registration", "registration|localization", "form of the problems"},
+    {"time_limit", "10", "s", "time from a source's publication to its reply"},
+    {"handshake", "ready", "ready|none",
+     "client of a problem, the caller of the service `ready` or any subscriber of `problem`"},
+    {"connect_limit", "60", "s", "time to wait for the first client"},
+    {"ready_limit", "60", "s", "time to wait for `ready` of each further problem"},
+    {"global_guess", "false", "", "initial guess for global problems, too"},
+    {"yaw_only", "false", "",
+     "localization without VIEWPOINT turns scans about z only; gives the tilt away"},
+    {"autostart", "true", "", "start without the service ~start"},
+    {"summary_hold_time", "5", "s",
+     "time that the summary stays up at the end, unless its readers have left before"},
+    {"debug", "false", "", "the truth, published on debug/*; marks the run"},
+    {"", "", "", "Frames and resources"},
+    {"map_frame", "map", "", "frame of the target"},
+    {"scan_frame", "pcrb_scan", "", "frame of the source in localization"},
+    {"publish_tf", "true", "", "frames of the server, published on tf"},
+    {"cache_memory_mb", "2048", "MB", "memory for clouds that are kept"},
+    {"load_threads", "1", "", "threads that read a cloud"},
+};
+
 namespace {
 
 constexpr double kForever = 1e9;  // s
-constexpr int kMaxShards = 1000000;
-
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
-std::string kindsOf(const ServerParameters& parameters) {
-  std::string kinds;
-  for (const Kind kind : parameters.kinds)
-    kinds += (kinds.empty() ? "" : " ") + std::string(toString(kind));
-  return kinds;
-}
-
-std::string shardOf(const ServerParameters& parameters) {
-  return std::to_string(parameters.shard) + "/" + std::to_string(parameters.shards);
-}
-
-/// `i/N`, counted from 0.
-void parseShard(const std::string& text, ServerParameters& parameters) {
-  const std::size_t slash = text.find('/');
-  const auto shard = parseInt(text.substr(0, slash));
-  const auto shards = slash == std::string::npos ? std::nullopt : parseInt(text.substr(slash + 1));
-  if (!shard || !shards || *shard < 0 || *shard >= *shards || *shards > kMaxShards) {
-    throw InvalidParameter("~shard: found `" + text + "`, expected i/N with 0 <= i < N");
-  }
-  parameters.shard = static_cast<int>(*shard);
-  parameters.shards = static_cast<int>(*shards);
-}
 
 void readFolders(NodeParameters& reader, ServerParameters& parameters) {
-  parameters.root = reader.requiredPath("root");
+  std::string& root = parameters.configuration.selection.root;
+  root = reader.requiredPath("root");
   parameters.run = reader.requiredPath("run");
-  parameters.under_test = reader.string("under_test", "");
-  const bool is_absolute = std::filesystem::path(parameters.root).is_absolute();
-  if (is_absolute && !std::filesystem::is_directory(parameters.root)) {
-    reader.addMistake("~root: found `" + parameters.root + "`, expected an existing folder");
+  parameters.configuration.under_test = reader.string("under_test");
+  const bool is_absolute = std::filesystem::path(root).is_absolute();
+  if (is_absolute && !std::filesystem::is_directory(root)) {
+    reader.addMistake("~root: found `" + root + "`, expected an existing folder");
   }
 }
 
-void readSelection(NodeParameters& reader, ServerParameters& parameters) {
-  parameters.sequences = reader.words("sequences", "all");
-  if (parameters.sequences.empty()) reader.addMistake("~sequences: names no sequence");
-  std::sort(parameters.sequences.begin(), parameters.sequences.end());
-  const std::string kind = reader.choice("kind", "local", {"local", "global", "both"});
-  if (kind != "global") parameters.kinds.push_back(Kind::kLocal);
-  if (kind != "local") parameters.kinds.push_back(Kind::kGlobal);
-  parameters.subset = reader.integer("subset", 0, 0, 100000000);
-  parameters.seed = reader.integer("seed", 1, 0, 2147483647);
-  const std::string shard = reader.string("shard", "0/1");
-  reader.check([&] { parseShard(shard, parameters); });
+void readSelection(NodeParameters& reader, ProblemSelection& selection) {
+  selection.sequences = reader.words("sequences");
+  if (selection.sequences.empty()) reader.addMistake("~sequences: names no sequence");
+  std::sort(selection.sequences.begin(), selection.sequences.end());
+  const std::string kind = reader.choice("kind");
+  selection.kinds.clear();
+  if (kind != "global") selection.kinds.push_back(Kind::kLocal);
+  if (kind != "local") selection.kinds.push_back(Kind::kGlobal);
+  selection.subset = static_cast<std::size_t>(reader.integer("subset", 0, 100000000));
+  selection.seed = static_cast<std::uint64_t>(reader.integer("seed", 0, 2147483647));
+  const std::string shard = reader.string("shard");
+  try {
+    selection.shard = shardFromString(shard);
+  } catch (const InvalidParameter& error) {
+    reader.addMistake(std::string("~") + error.what());
+  }
+}
+
+void readPresentation(NodeParameters& reader, RunConfiguration& configuration) {
+  configuration.presentation.kind = presentationFromString(reader.choice("presentation"));
+  configuration.presentation.yaw_only = reader.boolean("yaw_only");
+  configuration.global_guess = reader.boolean("global_guess");
+  configuration.time_limit = reader.number("time_limit", 1e-3, kForever);
+  configuration.handshake =
+      reader.choice("handshake") == "ready" ? Handshake::kReady : Handshake::kNone;
+  configuration.debug = reader.boolean("debug");
 }
 
 void readProtocol(NodeParameters& reader, ServerParameters& parameters) {
-  parameters.presentation = presentationFromString(
-      reader.choice("presentation", "registration", {"registration", "localization"}));
-  parameters.handshake = reader.choice("handshake", "ready", {"ready", "none"}) == "ready";
-  parameters.time_limit = reader.number("time_limit", 10.0, 1e-3, kForever);
-  parameters.connect_limit = reader.number("connect_limit", 60.0, 0.1, kForever);
-  parameters.ready_limit = reader.number("ready_limit", 60.0, 0.1, kForever);
-  parameters.linger = reader.number("linger", 5.0, 0.0, 3600.0);
-  parameters.global_guess = reader.boolean("global_guess", false);
-  parameters.upright = reader.boolean("upright", false);
-  parameters.debug = reader.boolean("debug", false);
-  parameters.autostart = reader.boolean("autostart", true);
-  parameters.map_frame = withoutSlash(reader.string("map_frame", "map"));
-  parameters.scan_frame = withoutSlash(reader.string("scan_frame", "pcrb_scan"));
-  parameters.publish_tf = reader.boolean("publish_tf", true);
-  if (parameters.map_frame.empty()) reader.addMistake("~map_frame: expected a name");
-  if (parameters.scan_frame.empty()) reader.addMistake("~scan_frame: expected a name");
-  if (parameters.map_frame == parameters.scan_frame) {
+  parameters.connect_limit = reader.number("connect_limit", 0.1, kForever);
+  parameters.ready_limit = reader.number("ready_limit", 0.1, kForever);
+  parameters.summary_hold_time = reader.number("summary_hold_time", 0.0, 3600.0);
+  parameters.autostart = reader.boolean("autostart");
+  parameters.publish_tf = reader.boolean("publish_tf");
+}
+
+void readFrames(NodeParameters& reader, ProblemFrames& frames) {
+  frames.map = withoutSlash(reader.string("map_frame"));
+  frames.scan = withoutSlash(reader.string("scan_frame"));
+  if (frames.map.empty()) reader.addMistake("~map_frame: expected a name");
+  if (frames.scan.empty()) reader.addMistake("~scan_frame: expected a name");
+  if (frames.map == frames.scan) {
     reader.addMistake("~map_frame and ~scan_frame: expected two different names, found `" +
-                      parameters.map_frame + "` for both");
+                      frames.map + "` for both");
   }
 }
 
 }  // namespace
 
 ServerParameters readServerParameters() {
-  NodeParameters reader;
+  NodeParameters reader(kServerParameters);
+  reader.acceptOldName("yaw_only", "upright");
+  reader.acceptOldName("summary_hold_time", "linger");
   ServerParameters parameters;
   readFolders(reader, parameters);
-  readSelection(reader, parameters);
+  readSelection(reader, parameters.configuration.selection);
+  readPresentation(reader, parameters.configuration);
   readProtocol(reader, parameters);
-  parameters.cache_bytes =
-      static_cast<std::size_t>(reader.integer("cache_memory_mb", 2048, 1, 1 << 20)) << 20;
-  parameters.load_threads = reader.integer("load_threads", 1, 1, 256);
+  readFrames(reader, parameters.frames);
+  parameters.loading.cache_bytes =
+      static_cast<std::size_t>(reader.integer("cache_memory_mb", 1, 1 << 20)) << 20;
+  parameters.loading.threads = reader.integer("load_threads", 1, 256);
   reader.finish();
   return parameters;
-}
-
-std::string describe(const ServerParameters& parameters) {
-  const std::string subset = parameters.subset > 0 ? std::to_string(parameters.subset) : "all";
-  return "results: " + parameters.run + "\nproblems: " + parameters.root + ", sequences " +
-         join(parameters.sequences) + ", kind " + kindsOf(parameters) + ", subset " + subset +
-         ", shard " + shardOf(parameters);
-}
-
-std::map<std::string, std::string> configuration(const ServerParameters& parameters) {
-  return {{"under_test", parameters.under_test},
-          {"sequences", join(parameters.sequences)},
-          {"kinds", kindsOf(parameters)},
-          {"presentation", toString(parameters.presentation)},
-          {"subset", std::to_string(parameters.subset)},
-          {"shard", shardOf(parameters)},
-          {"seed", std::to_string(parameters.seed)},
-          {"time_limit", formatShortest(parameters.time_limit)},
-          {"handshake", parameters.handshake ? "ready" : "none"},
-          {"global_guess", parameters.global_guess ? "true" : "false"},
-          {"upright", parameters.upright ? "true" : "false"},
-          {"debug", parameters.debug ? "true" : "false"}};
 }
 
 }  // namespace pcrb

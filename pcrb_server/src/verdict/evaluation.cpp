@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/summary.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/run/summary.hpp"
 #include "pcrb_server/node_parameters.hpp"
 #include "verdict/run_watcher.hpp"
 

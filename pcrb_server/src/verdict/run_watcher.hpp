@@ -16,7 +16,7 @@ namespace pcrb {
 ///
 /// A server that waits for ~start starts when this listens to it: with a fast client, the run could
 /// be over before. While this lives, the server sees that somebody reads its summary and stays (its
-/// ~linger).
+/// ~summary_hold_time).
 class RunWatcher {
  public:
   /// @param server   name of the server's node, relative to the namespace.

@@ -16,7 +16,7 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/secret.hpp"
-#include "pcrb_server/playback/scan_list.hpp"
+#include "pcrb_server/playback/scene.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -46,7 +46,7 @@ Provenance makeProvenance(const SequenceBagOptions& options) {
   provenance.setParameter("excluded", excluded);
   provenance.setParameter("map_leaf", pcrb::formatShortest(sequence.map_leaf));
   provenance.setParameter("map_points", std::to_string(sequence.map_points));
-  provenance.setParameter("truth", trueOrFalse(sequence.truth));
+  provenance.setParameter("truth", trueOrFalse(sequence.publish_ground_truth));
   provenance.setParameter("frames", sequence.map_frame + ' ' + sequence.scan_frame);
   return provenance;
 }
@@ -55,11 +55,12 @@ Provenance makeProvenance(const ProblemsBagOptions& options, const pcrb::Sequenc
   const pcrb::ProblemsOptions& problems = options.problems;
   Provenance provenance = makeProvenance("problems_to_bag", options.bag, files.cloud_folder);
   provenance.addInput(files.problem_file);
-  provenance.setParameter("presentation", pcrb::toString(problems.presentation));
-  provenance.setParameter("upright", trueOrFalse(problems.upright));
-  provenance.setParameter("truth", trueOrFalse(problems.truth));
-  provenance.setParameter("subset", std::to_string(problems.subset));
-  provenance.setParameter("seed", std::to_string(problems.seed));
+  const pcrb::RunConfiguration& configuration = problems.configuration;
+  provenance.setParameter("presentation", pcrb::toString(configuration.presentation.kind));
+  provenance.setParameter("upright", trueOrFalse(configuration.presentation.yaw_only));
+  provenance.setParameter("truth", trueOrFalse(problems.publish_ground_truth));
+  provenance.setParameter("subset", std::to_string(configuration.selection.subset));
+  provenance.setParameter("seed", std::to_string(configuration.selection.seed));
   provenance.setParameter("frames", problems.map_frame + ' ' + problems.scan_frame);
   return provenance;
 }
@@ -109,27 +110,25 @@ void runSequenceBagTool(const SequenceBagOptions& options) {
 void runProblemsBagTool(const ProblemsBagOptions& given) {
   ProblemsBagOptions options = given;
   pcrb::ProblemsOptions& problems = options.problems;
-  const bool has_secrets =
-      !problems.truth || problems.presentation == pcrb::PresentationKind::kLocalization;
-  if (has_secrets && options.key.empty()) {
+  if (problems.needsSecret() && options.key.empty()) {
     throw pcrb::InvalidParameter(
         "found no --key, expected a file: without it nobody could score what comes back from "
         "problems without truth, or with secretly turned scans");
   }
   const ProblemFilePath path = splitProblemFilePath(options.problem_file);
-  problems.root = path.root;
-  problems.sequences = {path.files.data_set + "/" + path.files.sequence};
-  problems.kinds = {path.files.kind};
-  problems.time_limit = options.bag.period;
+  problems.configuration.time_limit = options.bag.period;
+  pcrb::ProblemSelection& selection = problems.configuration.selection;
+  selection.root = path.root;
+  selection.sequences = {path.files.data_set + "/" + path.files.sequence};
+  selection.kinds = {path.files.kind};
   const Provenance provenance = makeProvenance(options, path.files);
   if (isComplete(provenance, options.bag, options.key)) return;
-  problems.secret = pcrb::Secret::draw().toHex();
+  problems.secret = pcrb::Secret::draw();
   ProblemKey key{fs::path(path.files.problem_file).filename().string(),
                  pcrb::fileHash(path.files.problem_file),
-                 problems.presentation,
-                 problems.upright,
-                 problems.subset,
-                 problems.seed,
+                 problems.configuration.presentation,
+                 selection.subset,
+                 selection.seed,
                  problems.secret,
                  {}};
   const auto playback = pcrb::playProblems(problems);

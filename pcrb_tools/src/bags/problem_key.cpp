@@ -33,8 +33,8 @@ bool takeSubset(const Fields& fields, ProblemKey& key) {
   const auto seed = pcrb::parseUnsigned(fields[2]);
   constexpr auto kMax = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
   if (!subset || !seed || *subset > kMax || *seed > kMax) return false;
-  key.subset = static_cast<int>(*subset);
-  key.seed = static_cast<int>(*seed);
+  key.subset = *subset;
+  key.seed = *seed;
   return true;
 }
 
@@ -51,12 +51,12 @@ bool take(const Fields& fields, ProblemKey& key) {
     key.problem_file = fields[1];
     key.hash = fields[2];
   } else if (fields[0] == "presentation") {
-    key.presentation = pcrb::presentationFromString(fields[1]);
+    key.presentation.kind = pcrb::presentationFromString(fields[1]);
   } else if (fields[0] == "upright") {
-    key.upright = fields[1] == "true";
-    return key.upright || fields[1] == "false";
+    key.presentation.yaw_only = fields[1] == "true";
+    return key.presentation.yaw_only || fields[1] == "false";
   } else {
-    key.secret = pcrb::Secret::fromHex(fields[1]).toHex();
+    key.secret = pcrb::Secret::fromHex(fields[1]);
   }
   return true;
 }
@@ -84,10 +84,10 @@ std::string formatProblemKey(const ProblemKey& key) {
       "# Key of a bag of registration problems: score_poses scores with it the poses that come "
       "back. Keep it.\n";
   text += "problem_file " + key.problem_file + ' ' + key.hash + '\n';
-  text += std::string("presentation ") + pcrb::toString(key.presentation) + '\n';
-  text += std::string("upright ") + (key.upright ? "true" : "false") + '\n';
+  text += std::string("presentation ") + pcrb::toString(key.presentation.kind) + '\n';
+  text += std::string("upright ") + (key.presentation.yaw_only ? "true" : "false") + '\n';
   text += "subset " + std::to_string(key.subset) + ' ' + std::to_string(key.seed) + '\n';
-  text += "secret " + key.secret + '\n';
+  text += "secret " + key.secret.value().toHex() + '\n';
   for (const auto& [stamp, row] : key.rows) {
     text +=
         "problem " + row.public_id + ' ' + pcrb::formatStamp(stamp) + ' ' + row.official_id + '\n';

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/problem/presentation.hpp"
+#include "pcrb_core/problem/secret.hpp"
 
 namespace pcrb_tools {
 
@@ -17,12 +21,11 @@ struct ProblemKey {
 
   std::string problem_file;  ///< its name, without folder
   std::string hash;          ///< of the problem file
-  pcrb::PresentationKind presentation = pcrb::PresentationKind::kRegistration;
-  bool upright = false;
-  int subset = 0;                   ///< number of problems drawn, 0 = all
-  int seed = 1;                     ///< of that draw
-  std::string secret;               ///< 32 hexadecimal digits
-  std::map<pcrb::Stamp, Row> rows;  ///< by the problem's stamp in the bag
+  pcrb::PresentationOptions presentation;
+  std::size_t subset = 0;              ///< number of problems drawn, 0 = all
+  std::uint64_t seed = 1;              ///< of that draw
+  std::optional<pcrb::Secret> secret;  ///< of ids, order and sensor poses
+  std::map<pcrb::Stamp, Row> rows;     ///< by the problem's stamp in the bag
 };
 
 std::string formatProblemKey(const ProblemKey& key);

@@ -11,13 +11,13 @@
 #include <thread>
 
 #include "benchmarking/batch_configuration.hpp"
-#include "benchmarking/merge_tool.hpp"
 #include "benchmarking/orphans.hpp"
 #include "benchmarking/shard.hpp"
 #include "common/interruption.hpp"
 #include "common/progress.hpp"
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/run/merge_runs.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -203,7 +203,7 @@ int runBatchTool(const BatchOptions& given) {
   std::filesystem::create_directories(options.run);
   noteConfiguration(options, settings->shards);
   const Interruption interruption;
-  MergeOptions merge{{}, options.run};
+  pcrb::MergeOptions merge{{}, options.run};
   for (int i = 0; i < settings->shards; ++i) merge.runs.push_back(Shard(settings, i).folder());
   Batch batch(settings, options);
   batch.run();
@@ -211,7 +211,7 @@ int runBatchTool(const BatchOptions& given) {
     std::cerr << "the run is not complete; start this again with the same folder to go on"
               << std::endl;
   } else if (!options.only) {
-    std::cout << runMergeTool(merge).summary << std::flush;
+    std::cout << pcrb::mergeRuns(merge).summary << std::flush;
   }
   return batch.hasDefects() ? kFailure : kSuccess;
 }

@@ -8,8 +8,10 @@
 #include "benchmarking/batch_tool.hpp"
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/run/results_store.hpp"
+#include "pcrb_core/run/run_info.hpp"
+#include "report/report_tool.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -64,9 +66,8 @@ BatchOptions batchOf(const PaperOptions& options, const Experiment& experiment) 
 bool isComplete(const std::string& run) {
   if (!std::filesystem::exists(run + "/results.sqlite")) return false;
   const pcrb::ResultsStore store(run, pcrb::ResultsStore::Access::kReadOnly);
-  const auto info = store.runInfo();
-  const auto planned = info.find("problems");
-  return planned != info.end() && planned->second == std::to_string(store.count());
+  const auto planned = pcrb::RunInfo::read(store).problems;
+  return planned && *planned == store.count();
 }
 
 /// The complete runs of all experiments, those of earlier calls too.

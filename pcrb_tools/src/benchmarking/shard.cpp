@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "benchmarking/merge_tool.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/run/merge_runs.hpp"
+#include "pcrb_core/run/run_info.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -72,15 +73,15 @@ bool Shard::isRunning() {
   if (!process_->ended()) return true;
   process_.reset();
   port_.reset();
-  foldLog();
+  checkpointWal();
   tmpdir_.reset();
   lock_.reset();
   return false;
 }
 
-/// The server that ended could not fold its write-ahead log into the database while it was read
+/// The server that ended could not checkpoint its write-ahead log while the database was read
 /// here.
-void Shard::foldLog() {
+void Shard::checkpointWal() {
   store_.reset();
   if (!fs::exists(folder() + "/results.sqlite")) return;
   try {
@@ -98,9 +99,7 @@ void Shard::open() {
   if (store_ && total_ > 0) return;
   try {
     store_ = std::make_unique<pcrb::ResultsStore>(folder(), pcrb::ResultsStore::Access::kReadOnly);
-    const auto info = store_->runInfo();
-    const auto problems = info.find("problems");
-    if (problems != info.end()) total_ = pcrb::parseUnsigned(problems->second).value_or(0);
+    total_ = pcrb::RunInfo::read(*store_).problems.value_or(0);
   } catch (const pcrb::StoreError&) {
     store_.reset();  // the server is about to make it, or to say in its log what is wrong with it
   }
@@ -121,15 +120,14 @@ bool Shard::isComplete() { return total() > 0 && done() >= total(); }
 std::string Shard::defect() {
   if (!isComplete()) {
     const std::string of = total_ == 0 ? "" : " of " + std::to_string(total_);
-    return name() + ": " + std::to_string(done()) + of + " problems have a result" +
-           lastComplaint();
+    return name() + ": " + std::to_string(done()) + of + " problems have a result" + lastError();
   }
-  const std::string silence = describeSilence(store_->results());
+  const std::string silence = pcrb::describeSilence(store_->results());
   return silence.empty() ? "" : name() + ": " + silence + "; see " + logFile();
 }
 
 /// What a node said on standard error before it gave up, as the suite's nodes say it.
-std::string Shard::lastComplaint() const {
+std::string Shard::lastError() const {
   std::ifstream log(logFile());
   log.seekg(log_start_);
   std::string line;

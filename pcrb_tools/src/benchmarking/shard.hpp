@@ -10,8 +10,8 @@
 #include "benchmarking/child_process.hpp"
 #include "benchmarking/reserved_port.hpp"
 #include "common/temporary_folder.hpp"
-#include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/run/results_store.hpp"
 
 namespace pcrb_tools {
 
@@ -66,9 +66,9 @@ class Shard {
 
  private:
   void open();
-  void foldLog();
+  void checkpointWal();
   std::string logFile() const;
-  std::string lastComplaint() const;
+  std::string lastError() const;
 
   std::shared_ptr<const ShardSettings> settings_;
   int number_;

@@ -203,7 +203,7 @@ class Preparation {
 };
 
 bool isWanted(const std::string& wanted, const LogSequence& log) {
-  return pcrb::namesSequence(wanted, log.data_set, log.sequence);
+  return pcrb::namesSequence(wanted, {log.data_set, log.sequence});
 }
 
 /// The logs of the sequences that are asked for, each of which must be there.

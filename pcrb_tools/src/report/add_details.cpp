@@ -12,9 +12,8 @@ namespace {
 /// The data set folder of an entry: the one that was asked for, else the run's, where it is there.
 std::string rootOf(const Entry& entry, const ReportOptions& options) {
   if (!options.root.empty()) return options.root;
-  const auto found = entry.info.find("root");
-  const bool is_there = found != entry.info.end() && std::filesystem::is_directory(found->second);
-  return is_there ? found->second : std::string();
+  const std::string root = entry.info ? entry.info->configuration.selection.root : "";
+  return std::filesystem::is_directory(root) ? root : std::string();
 }
 
 std::size_t countProblems(const std::vector<Entry>& entries) {
@@ -84,9 +83,9 @@ DetailsByRoot addDetails(const ReportOptions& options, const std::vector<GroundT
   for (Entry& entry : entries) {
     const std::string root = rootOf(entry, options);
     if (root.empty()) continue;
-    ProblemDetails& found = details.emplace(root, root).first->second;
+    ProblemDetails& found = details.try_emplace(root, root).first->second;
     found.addPairs(entry);
-    if (options.with_components && !entry.info.empty()) found.addComponents(entry, progress);
+    if (options.with_components && entry.info) found.addComponents(entry, progress);
   }
   if (!details.empty() && options.with_components) progress.finish();
   if (options.ground_truth.empty()) return details;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "pcrb_core/evaluation/results_store.hpp"
+#include "pcrb_core/run/results_store.hpp"
 #include "report/catalog.hpp"
 #include "report/import_results.hpp"
 
@@ -86,7 +86,7 @@ void addRun(const std::string& text, std::vector<Entry>& entries) {
   Entry frame;
   frame.method = run.name.empty() ? lastName(run.path) : run.name;
   frame.path = run.path;
-  frame.info = store.runInfo();
+  frame.info = pcrb::RunInfo::read(store);
   std::vector<ScoredProblem> problems;
   for (const pcrb::Result& result : store.results()) problems.push_back(fromResult(result));
   if (problems.empty()) throw pcrb::InvalidFile(store.path(), "holds no result yet");

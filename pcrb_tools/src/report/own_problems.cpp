@@ -15,11 +15,11 @@ using SequenceKey = std::pair<std::string, std::string>;  // data set, sequence
 
 bool isDrawn(const Entry& entry, const SequenceKey& key, const std::string& root) {
   const std::string name = key.first + "/" + key.second + "_" + pcrb::toString(entry.kind) + ".txt";
-  if (entry.info.count("drawn_by " + name) > 0) return true;
+  if (entry.info && entry.info->drawn_by.count(name) > 0) return true;
   const std::string path = root + "/" + name;
   if (root.empty() || !std::filesystem::is_regular_file(path)) return false;
-  const auto known = entry.info.find("problem_file " + name);
-  const std::string hash = known == entry.info.end() ? pcrb::fileHash(path) : known->second;
+  const bool is_known = entry.info && entry.info->problem_files.count(name) > 0;
+  const std::string hash = is_known ? entry.info->problem_files.at(name) : pcrb::fileHash(path);
   return !pcrb::generatorOf(path, hash).empty();
 }
 

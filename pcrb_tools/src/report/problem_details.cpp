@@ -9,20 +9,18 @@
 #include "pcrb_core/problem/presentation.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/problem/secret.hpp"
+#include "pcrb_core/run/run_plan.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 using pcrb::Transform;
 
+constexpr std::size_t kDetailsCacheBytes = std::size_t{1} << 30;
+
 std::string nameOf(const pcrb::ProblemKey& key) {
   return key.data_set + "/" + key.sequence + ", " + pcrb::toString(key.kind) + " problem " +
          key.problem_id;
-}
-
-std::string infoOf(const Entry& entry, const std::string& key) {
-  const auto found = entry.info.find(key);
-  return found == entry.info.end() ? std::string() : found->second;
 }
 
 /// What the run store has of a pose error, from which this one was found anew, must be the same.
@@ -46,7 +44,9 @@ void requireSameError(const ScoredProblem& problem, const Transform& residual,
 
 }  // namespace
 
-ProblemDetails::ProblemDetails(std::string root) : root_(std::move(root)) {
+ProblemDetails::ProblemDetails(std::string root)
+    : root_(std::move(root)),
+      poser_(root_, {}, pcrb::Secret(), {kDetailsCacheBytes, pcrb::processorCount()}) {
   for (pcrb::SequenceFiles& files : pcrb::findSequences(root_)) {
     const SequenceKey key{{files.data_set, files.sequence}, files.kind};
     sequences_[key].files = std::move(files);
@@ -100,56 +100,44 @@ void ProblemDetails::addPairs(Entry& entry) {
   }
 }
 
-const ProblemDetails::Cloud& ProblemDetails::cloud(const std::string& path) {
-  const auto known = clouds_.find(path);
-  if (known != clouds_.end()) return known->second;
-  const pcrb::DatasetCloud read = pcrb::readPcd(path, {pcrb::processorCount()});
-  Cloud cloud;
-  cloud.origin = pcrb::chooseLocalOrigin(read);
-  cloud.centroid = pcrb::centroid(read);
-  cloud.has_viewpoint = read.hasViewpoint();
-  cloud.viewpoint = read.viewpoint;
-  Transform metre = Transform::Identity();
-  metre.translation().x() = 1.0;
-  const pcrb::Metric metric(pcrb::makeLocal(read, cloud.origin));
-  cloud.error_per_metre = metric.evaluate(metre).error;
-  return clouds_.emplace(path, cloud).first->second;
+pcrb::PlannedProblem ProblemDetails::plan(const pcrb::ProblemKey& key) {
+  const pcrb::Problem& problem = problemOf(key);
+  auto& data_set = data_sets_[key.data_set];
+  if (!data_set) {
+    data_set = std::make_shared<pcrb::Dataset>(pcrb::loadDataset(root_, key.data_set));
+  }
+  return pcrb::planProblem(sequenceOf(key).files, problem, 0, data_set);
 }
 
 void ProblemDetails::addErrorPerMetre(ScoredProblem& problem) {
-  const std::string& source = problemOf(problem.key).source;
-  const std::string folder = sequenceOf(problem.key).files.cloud_folder + "/";
-  problem.error_per_metre = cloud(folder + source).error_per_metre;
+  const pcrb::PlannedProblem planned = plan(problem.key);
+  const auto known = errors_per_metre_.find(planned.source_path);
+  if (known != errors_per_metre_.end()) {
+    problem.error_per_metre = known->second;
+    return;
+  }
+  Transform metre = Transform::Identity();
+  metre.translation().x() = 1.0;
+  problem.error_per_metre = poser_.pose(planned).source->metric->evaluate(metre).error;
+  errors_per_metre_[planned.source_path] = *problem.error_per_metre;
 }
 
-void ProblemDetails::addComponents(const Entry& entry, ScoredProblem& problem) {
+void ProblemDetails::addComponents(const pcrb::RunInfo& info, ScoredProblem& problem) {
   if (!problem.reply) return;
-  const pcrb::Problem& known = problemOf(problem.key);
-  const std::string folder = sequenceOf(problem.key).files.cloud_folder + "/";
-  const Eigen::Vector3d origin = cloud(folder + known.target).origin;
-  const Cloud& source = cloud(folder + known.source);
-  const Eigen::Vector3d centroid = source.centroid - origin;
-  const Transform P = pcrb::inLocalFrame(pcrb::requireRigid(known.perturbation), origin);
-  pcrb::Presentation presentation = pcrb::presentForRegistration(P);
-  if (infoOf(entry, "presentation") == "localization") {
-    Transform viewpoint = source.viewpoint;
-    viewpoint.translation() -= origin;
-    const std::string subject = problem.key.data_set + "/" + problem.key.sequence + " " +
-                                pcrb::toString(problem.key.kind) + " " + problem.key.problem_id;
-    const Transform V = pcrb::secretSensorPose(pcrb::Secret::fromHex(infoOf(entry, "secret")),
-                                               subject, source.has_viewpoint, viewpoint, centroid,
-                                               infoOf(entry, "upright") == "true");
-    presentation = pcrb::presentForLocalization(P, V);
-  }
+  const pcrb::PlannedProblem planned = plan(problem.key);
+  const pcrb::PosedProblem posed = poser_.pose(planned);
+  const pcrb::Presentation presentation =
+      pcrb::present(posed, info.configuration.presentation, info.secret.value_or(pcrb::Secret()));
   const Transform residual = presentation.residual(*problem.reply);
-  const pcrb::PoseComponents components = pcrb::poseComponents(residual, centroid);
+  const pcrb::PoseComponents components =
+      pcrb::poseComponents(residual, posed.source->metric->centroid());
   requireSameError(problem, residual, components);
   problem.components = components.values();
 }
 
 void ProblemDetails::addComponents(Entry& entry, Progress& progress) {
   for (ScoredProblem& problem : entry.problems) {
-    addComponents(entry, problem);
+    addComponents(entry.info.value(), problem);
     progress.add();
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,13 +9,13 @@
 #include "common/progress.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/problem/dataset.hpp"
+#include "pcrb_core/run/problem_poser.hpp"
 #include "report/scored_problem.hpp"
 
 namespace pcrb_tools {
 
 /// Finds in the data sets what results do not say: clouds and overlaps of imported results, and the
-/// errors along each axis of stored replies. Every cloud is read once and only what is needed of it
-/// is kept.
+/// errors along each axis of stored replies.
 class ProblemDetails {
  public:
   /// @param root  folder in the common layout.
@@ -40,13 +41,6 @@ class ProblemDetails {
   void addComponents(Entry& entry, Progress& progress);
 
  private:
-  struct Cloud {
-    Eigen::Vector3d origin;    ///< local origin that it has as a target, data set frame
-    Eigen::Vector3d centroid;  ///< data set frame
-    bool has_viewpoint = false;
-    pcrb::Transform viewpoint = pcrb::Transform::Identity();  ///< T_dataset_sensor
-    double error_per_metre = 0.0;
-  };
   using SequenceKey = std::pair<std::pair<std::string, std::string>, pcrb::Kind>;
 
   struct Sequence {
@@ -56,12 +50,14 @@ class ProblemDetails {
 
   Sequence& sequenceOf(const pcrb::ProblemKey& key);
   const pcrb::Problem& problemOf(const pcrb::ProblemKey& key);
-  const Cloud& cloud(const std::string& path);
-  void addComponents(const Entry& entry, ScoredProblem& problem);
+  pcrb::PlannedProblem plan(const pcrb::ProblemKey& key);
+  void addComponents(const pcrb::RunInfo& info, ScoredProblem& problem);
 
   std::string root_;
   std::map<SequenceKey, Sequence> sequences_;
-  std::map<std::string, Cloud> clouds_;  ///< by path
+  std::map<std::string, std::shared_ptr<const pcrb::Dataset>> data_sets_;
+  pcrb::ProblemPoser poser_;
+  std::map<std::string, double> errors_per_metre_;  ///< by path of the source
 };
 
 }  // namespace pcrb_tools

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "pcrb_core/evaluation/result.hpp"
+#include "pcrb_core/run/result.hpp"
+#include "pcrb_core/run/run_info.hpp"
 #include "pcrb_core/transform.hpp"
 
 namespace pcrb_tools {
@@ -38,9 +38,9 @@ struct ScoredProblem {
 struct Entry {
   std::string method;
   pcrb::Kind kind = pcrb::Kind::kLocal;
-  std::string path;                         ///< run folder or file
-  std::map<std::string, std::string> info;  ///< of the run table; empty for imports
-  std::vector<ScoredProblem> problems;      ///< ordered by key
+  std::string path;                     ///< run folder or file
+  std::optional<pcrb::RunInfo> info;    ///< of a run; imports have none
+  std::vector<ScoredProblem> problems;  ///< ordered by key
 };
 
 /// Names the pair of clouds: by its clouds where they are known, by the official id where it is one

@@ -20,12 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kWorstShown = 100;
 
-/// What of the run table a reader of the report wants to know; secrets and hashes stay where they
-/// are.
-constexpr const char* kShownInfo[] = {"presentation", "sequences",    "subset",        "seed",
-                                      "shard",        "time_limit",   "global_guess",  "upright",
-                                      "debug",        "code_version", "metric_version"};
-
 Json describeEntry(const Entry& entry) {
   Json json;
   json["method"] = entry.method;
@@ -34,13 +28,11 @@ Json describeEntry(const Entry& entry) {
   std::size_t answered = 0;
   for (const ScoredProblem& problem : entry.problems) answered += problem.isAnswered() ? 1 : 0;
   json["answered"] = answered;
-  const auto planned = entry.info.find("problems");
-  json["planned"] = planned == entry.info.end() ? Json(nullptr) : Json(planned->second);
+  const auto planned = entry.info ? entry.info->problems : std::nullopt;
+  json["planned"] = planned ? Json(std::to_string(*planned)) : Json(nullptr);
   json["info"] = Json::object();
-  for (const char* key : kShownInfo) {
-    const auto found = entry.info.find(key);
-    if (found != entry.info.end()) json["info"][key] = found->second;
-  }
+  if (!entry.info) return json;
+  for (const auto& [key, text] : entry.info->writeShown()) json["info"][key] = text;
   return json;
 }
 

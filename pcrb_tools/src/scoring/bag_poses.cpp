@@ -3,8 +3,6 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "archives/bag_messages.hpp"
@@ -15,49 +13,42 @@
 namespace pcrb_tools {
 namespace {
 
-using Request = pcrb_msgs::SubmitPose::Request;
+/// A pose as a client would have submitted it, and the header of its message.
+struct BagPose {
+  std_msgs::Header header;
+  pcrb::Submission submission;
+};
 
-Request makeRequest(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
-  Request request;
-  request.status = Request::POSE;
-  request.solver_time = std::nan("");
-  request.pose.header = header;
-  request.pose.pose = pose;
-  return request;
-}
-
-Request makeRequest(const std_msgs::Header& header,
-                    const geometry_msgs::PoseWithCovariance& estimate) {
-  Request request = makeRequest(header, estimate.pose);
-  if (const auto covariance = pcrb::covarianceOf(estimate)) {
-    request.has_covariance = 1;
-    std::copy(covariance->begin(), covariance->end(), request.covariance.begin());
-  }
-  return request;
-}
-
-geometry_msgs::Pose poseOf(const geometry_msgs::Transform& transform) {
-  geometry_msgs::Pose pose;
-  pose.position.x = transform.translation.x;
-  pose.position.y = transform.translation.y;
-  pose.position.z = transform.translation.z;
-  pose.orientation = transform.rotation;
+template <typename Vector>
+BagPose makeBagPose(const std_msgs::Header& header, const Vector& position,
+                    const geometry_msgs::Quaternion& q) {
+  BagPose pose{header, {}};
+  pose.submission.position = {position.x, position.y, position.z};
+  pose.submission.orientation = Eigen::Quaterniond(q.w, q.x, q.y, q.z);
   return pose;
 }
 
-/// Whatever type it is of.
-Request makeRequest(const rosbag::MessageInstance& message) {
-  if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
-    return makeRequest(pose->header, pose->pose);
+BagPose makeBagPose(const std_msgs::Header& header,
+                    const geometry_msgs::PoseWithCovariance& estimate) {
+  BagPose pose = makeBagPose(header, estimate.pose.position, estimate.pose.orientation);
+  pose.submission.covariance = pcrb::covarianceOf(estimate);
+  return pose;
+}
+
+/// Of a message of any of the types that hold a pose.
+BagPose makeBagPose(const rosbag::MessageInstance& message) {
+  if (const auto stamped = message.instantiate<geometry_msgs::PoseStamped>()) {
+    return makeBagPose(stamped->header, stamped->pose.position, stamped->pose.orientation);
   }
-  if (const auto pose = message.instantiate<geometry_msgs::PoseWithCovarianceStamped>()) {
-    return makeRequest(pose->header, pose->pose);
+  if (const auto stamped = message.instantiate<geometry_msgs::PoseWithCovarianceStamped>()) {
+    return makeBagPose(stamped->header, stamped->pose);
   }
   if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) {
-    return makeRequest(odometry->header, odometry->pose);
+    return makeBagPose(odometry->header, odometry->pose);
   }
-  if (const auto transform = message.instantiate<geometry_msgs::TransformStamped>()) {
-    return makeRequest(transform->header, poseOf(transform->transform));
+  if (const auto stamped = message.instantiate<geometry_msgs::TransformStamped>()) {
+    const auto& transform = stamped->transform;
+    return makeBagPose(stamped->header, transform.translation, transform.rotation);
   }
   throw pcrb::InvalidFile(message.getTopic(), 0, message.getDataType(),
                           "geometry_msgs PoseStamped, PoseWithCovarianceStamped or "
@@ -71,9 +62,10 @@ std::vector<RecordedPose> readBagPoses(const std::string& path, const std::strin
   const BagMessages bag({path});
   std::vector<RecordedPose> poses;
   bag.forEach({topic}, [&](const rosbag::MessageInstance& message) {
+    const BagPose found = makeBagPose(message);
+    const std_msgs::Header& header = found.header;
     RecordedPose pose;
-    pose.reply.request = makeRequest(message);
-    const std_msgs::Header& header = pose.reply.request.pose.header;
+    pose.reply.submission = found.submission;
     pose.stamp = static_cast<pcrb::Stamp>(header.stamp.toNSec());
     pose.place = path + ", " + topic + " at " + pcrb::formatStamp(pose.stamp);
     if (pcrb::withoutSlash(header.frame_id) != pcrb::withoutSlash(frame)) {

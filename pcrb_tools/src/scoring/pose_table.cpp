@@ -5,7 +5,6 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
-#include "pcrb_server/message_conversion.hpp"
 #include "scoring/recorded_poses.hpp"
 
 namespace pcrb_tools {
@@ -17,35 +16,23 @@ constexpr const char* kExpected =
 constexpr double kRotationTolerance =
     1e-3;  // the largest |R'R - I|, as quaternions' norms in replies
 
-/// The rows of a matrix as a client would have sent them; nothing where R is no rotation.
-std::optional<geometry_msgs::Pose> poseOfMatrix(const std::vector<double>& numbers) {
+/// The rows of a matrix as a client would have submitted them; nothing where R is no rotation.
+std::optional<pcrb::Submission> submissionOfMatrix(const std::vector<double>& numbers) {
   const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(numbers.data());
   const Eigen::Matrix3d R = rows.leftCols<3>();
   const double deviation = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
   if (!(deviation <= kRotationTolerance) || R.determinant() < 0.0) return std::nullopt;
-  pcrb::Transform T = pcrb::Transform::Identity();
-  T.linear() = R;
-  T.translation() = rows.col(3);
-  return pcrb::toMessage(T);
+  pcrb::Submission submission;
+  submission.position = rows.col(3);
+  submission.orientation = Eigen::Quaterniond(R).normalized();
+  return submission;
 }
 
-geometry_msgs::Pose poseOfTum(const std::vector<double>& n) {
-  geometry_msgs::Pose pose;
-  pose.position.x = n[0];
-  pose.position.y = n[1];
-  pose.position.z = n[2];
-  pose.orientation.x = n[3];
-  pose.orientation.y = n[4];
-  pose.orientation.z = n[5];
-  pose.orientation.w = n[6];
-  return pose;
-}
-
-pcrb::OfflineReply emptyReply() {
-  pcrb::OfflineReply reply;
-  reply.request.status = pcrb_msgs::SubmitPose::Request::POSE;
-  reply.request.solver_time = std::nan("");
-  return reply;
+pcrb::Submission submissionOfTum(const std::vector<double>& n) {
+  pcrb::Submission submission;
+  submission.position = {n[0], n[1], n[2]};
+  submission.orientation = Eigen::Quaterniond(n[6], n[3], n[4], n[5]);
+  return submission;
 }
 
 RecordedPose parseRow(const pcrb::LineReader& reader, const std::vector<std::string_view>& fields) {
@@ -58,11 +45,10 @@ RecordedPose parseRow(const pcrb::LineReader& reader, const std::vector<std::str
   RecordedPose pose;
   pose.label = std::string(fields[0]);
   pose.place = reader.name() + ":" + std::to_string(reader.lineNumber());
-  pose.reply = emptyReply();
   if (numbers.size() == 7) {
-    pose.reply.request.pose.pose = poseOfTum(numbers);
-  } else if (const auto of_matrix = poseOfMatrix(numbers)) {
-    pose.reply.request.pose.pose = *of_matrix;
+    pose.reply.submission = submissionOfTum(numbers);
+  } else if (const auto of_matrix = submissionOfMatrix(numbers)) {
+    pose.reply.submission = *of_matrix;
   } else {
     pose.reply.defect = "the matrix has no rotation in it";
   }
@@ -98,7 +84,8 @@ pcrb::Trajectory toTrajectory(const std::vector<RecordedPose>& poses, const std:
     }
     if (!pose.reply.defect.empty()) throw pcrb::InvalidFile(pose.place, pose.reply.defect);
     try {
-      stamped.push_back({*stamp, pcrb::fromMessage(pose.reply.request.pose.pose)});
+      const pcrb::Submission& submission = pose.reply.submission;
+      stamped.push_back({*stamp, pcrb::makeTransform(submission.position, submission.orientation)});
     } catch (const pcrb::InvalidProblem& error) {
       throw pcrb::InvalidFile(pose.place, error.what());
     }

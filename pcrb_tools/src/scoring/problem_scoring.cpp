@@ -9,7 +9,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/problem/problem.hpp"
-#include "pcrb_server/offline_run.hpp"
+#include "pcrb_core/run/offline_run.hpp"
 #include "scoring/recorded_poses.hpp"
 #include "scoring/scoring_tool.hpp"
 
@@ -104,21 +104,21 @@ pcrb::OfflineRunOptions makeRunOptions(const ProblemScoringOptions& options,
                                        const ProblemFilePath& path,
                                        const std::optional<ProblemKey>& key) {
   pcrb::OfflineRunOptions run;
-  run.root = path.root;
-  run.sequence = path.files.data_set + "/" + path.files.sequence;
-  run.kind = path.files.kind;
+  pcrb::ProblemSelection& selection = run.configuration.selection;
+  selection.root = path.root;
+  selection.sequences = {path.files.data_set + "/" + path.files.sequence};
+  selection.kinds = {path.files.kind};
+  selection.subset = key ? key->subset : options.subset;
+  selection.seed = key ? key->seed : options.seed;
   run.run = options.run;
   run.client = "score_poses " + std::filesystem::path(options.poses.path).filename().string() +
                " " + pcrb::fileHash(options.poses.path);
-  run.subset = options.subset;
-  run.seed = options.seed;
-  run.in_dataset_frame = !key && options.in_dataset_frame;
-  if (!key) return run;
-  run.presentation = key->presentation;
-  run.upright = key->upright;
+  if (!key) {
+    run.pose_frame = options.pose_frame;
+    return run;
+  }
+  run.configuration.presentation = key->presentation;
   run.secret = key->secret;
-  run.subset = key->subset;
-  run.seed = key->seed;
   return run;
 }
 

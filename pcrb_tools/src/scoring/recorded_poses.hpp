@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pcrb_core/datasets/trajectory.hpp"
-#include "pcrb_server/offline_run.hpp"
+#include "pcrb_core/run/offline_run.hpp"
 
 namespace pcrb_tools {
 

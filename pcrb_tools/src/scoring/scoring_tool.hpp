@@ -4,6 +4,7 @@
 #include <ostream>
 #include <string>
 
+#include "pcrb_core/run/offline_run.hpp"
 #include "pcrb_core/transform.hpp"
 
 namespace pcrb_tools {
@@ -18,12 +19,12 @@ struct PoseSource {
 /// What `score_poses PROBLEM_FILE` is asked for.
 struct ProblemScoringOptions {
   PoseSource poses;
-  std::string problem_file;      ///< `<root>/<data set>/<sequence>_<kind>.txt`
-  std::string run;               ///< folder of the results
-  std::string key;               ///< of a bag of problems; empty = official ids, registration
-  bool in_dataset_frame = true;  ///< without key: whether poses are in the clouds' frame
-  int subset = 0;                ///< without key
-  int seed = 1;
+  std::string problem_file;  ///< `<root>/<data set>/<sequence>_<kind>.txt`
+  std::string run;           ///< folder of the results
+  std::string key;           ///< of a bag of problems; empty = official ids, registration
+  pcrb::PoseFrame pose_frame = pcrb::PoseFrame::kDataset;  ///< without key
+  std::size_t subset = 0;                                  ///< without key
+  std::uint64_t seed = 1;                                  ///< without key, of the subset
 };
 
 /// Scores the poses of problems into a run like the server's, and prints its summary.

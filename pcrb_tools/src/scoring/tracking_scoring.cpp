@@ -13,7 +13,7 @@
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_server/playback/scan_list.hpp"
+#include "pcrb_server/playback/scene.hpp"
 #include "scoring/recorded_poses.hpp"
 #include "scoring/scoring_tool.hpp"
 #include "scoring/tracking_report.hpp"

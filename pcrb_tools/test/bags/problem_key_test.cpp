@@ -16,11 +16,10 @@ ProblemKey someKey() {
   ProblemKey key;
   key.problem_file = "apartment_local.txt";
   key.hash = "12ab";
-  key.presentation = pcrb::PresentationKind::kLocalization;
-  key.upright = true;
+  key.presentation = {pcrb::PresentationKind::kLocalization, true};
   key.subset = 50;
   key.seed = 7;
-  key.secret = "00112233445566778899aabbccddeeff";
+  key.secret = pcrb::Secret::fromHex("00112233445566778899aabbccddeeff");
   key.rows[1000000000 * pcrb::kSecond] = {"ffee", "13001298760000"};
   key.rows[1000000000 * pcrb::kSecond + 1] = {"ddcc", "13001298760001"};
   return key;

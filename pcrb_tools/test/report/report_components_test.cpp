@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <sstream>
 
-#include "evaluation/some_results.hpp"
-#include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/random.hpp"
+#include "pcrb_core/run/results_store.hpp"
 #include "report/problem_details.hpp"
+#include "run/some_results.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -50,7 +50,7 @@ class ProblemDetailsTest : public ::testing::Test {
     problem.rotation_error = 0.02;
     problem.translation_error = std::hypot(0.1, 0.3);
     entry_.method = "mine";
-    entry_.info = {{"presentation", "registration"}};
+    entry_.info.emplace();  // registration
     entry_.problems = {problem};
   }
 

@@ -27,6 +27,13 @@ class RecordedPosesTest : public ::testing::Test {
     return readPoseTable(folder_.file("poses.txt"));
   }
 
+  /// That it is pose_, to the bit.
+  void expectPose(const pcrb::Submission& submission) const {
+    EXPECT_EQ(submission.position, Eigen::Vector3d(pose_.position.x, pose_.position.y, 0.0));
+    EXPECT_EQ(submission.orientation.coeffs(),
+              Eigen::Vector4d(0.0, 0.0, pose_.orientation.z, pose_.orientation.w));
+  }
+
   geometry_msgs::Pose pose_ = [] {
     geometry_msgs::Pose pose;
     pose.position.x = 1.5;
@@ -43,17 +50,17 @@ TEST_F(RecordedPosesTest, TumsRowsAreTakenAsTheyAre) {
       readTable("# comment\n\n1311878220.37 1.5 -2.5 0 0 0 0.6 0.8\r\n7 0 0 0 0 0 0 2");
   ASSERT_EQ(poses.size(), 2U);
   EXPECT_EQ(poses[0].label, "1311878220.37");
-  EXPECT_EQ(poses[0].reply.request.pose.pose, pose_);
-  EXPECT_EQ(poses[1].reply.request.pose.pose.orientation.w, 2.0);  // refused where it is scored
+  expectPose(poses[0].reply.submission);
+  EXPECT_EQ(poses[1].reply.submission.orientation.w(), 2.0);  // refused where it is scored
   EXPECT_EQ(poses[1].reply.defect, "");
 }
 
 TEST_F(RecordedPosesTest, MatricesBecomeQuaternions) {
   const auto poses = readTable("12 0.28 -0.96 0 1.5 0.96 0.28 0 -2.5 0 0 1 0");
-  const auto& pose = poses.at(0).reply.request.pose.pose;
-  EXPECT_EQ(pose.position, pose_.position);
-  EXPECT_NEAR(pose.orientation.z, 0.6, 1e-15);
-  EXPECT_NEAR(pose.orientation.w, 0.8, 1e-15);
+  const auto& pose = poses.at(0).reply.submission;
+  EXPECT_EQ(pose.position, Eigen::Vector3d(1.5, -2.5, 0.0));
+  EXPECT_NEAR(pose.orientation.z(), 0.6, 1e-15);
+  EXPECT_NEAR(pose.orientation.w(), 0.8, 1e-15);
 }
 
 TEST_F(RecordedPosesTest, MatricesWithSixDecimalsAreRotations) {
@@ -99,10 +106,11 @@ TEST_F(RecordedPosesTest, BagsMayHoldFourTypesOfPoses) {
     const auto poses = readPoses(path, topic, "map");
     ASSERT_EQ(poses.size(), 1U) << topic;
     EXPECT_EQ(poses[0].stamp, 1000000000 * pcrb::kSecond + 5);
-    EXPECT_EQ(poses[0].reply.request.pose.pose, pose_) << topic;
+    expectPose(poses[0].reply.submission);
     const bool has_covariance = topic == "/covariant" || topic == "/odometry";
-    EXPECT_EQ(poses[0].reply.request.has_covariance != 0, has_covariance) << topic;
-    EXPECT_EQ(poses[0].reply.request.covariance[35], has_covariance ? 0.25 : 0.0);
+    const auto& covariance = poses[0].reply.submission.covariance;
+    EXPECT_EQ(covariance.has_value(), has_covariance) << topic;
+    EXPECT_EQ(covariance.value_or(pcrb::PoseCovariance{})[35], has_covariance ? 0.25 : 0.0);
   }
   expectError<pcrb::InvalidFile>([&] { readPoses(path, "/pose", "map"); }, "no message on `/pose`");
   expectError<pcrb::InvalidFile>([&] { readPoses(path, "/stamped", "odom"); },

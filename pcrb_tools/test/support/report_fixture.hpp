@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/some_results.hpp"
-#include "pcrb_core/evaluation/results_store.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/text.hpp"
+#include "pcrb_core/run/results_store.hpp"
 #include "report/report_tool.hpp"
+#include "run/some_results.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -59,9 +60,35 @@ struct SequenceFiles {
 /// @throws InvalidFile  if the root is no readable folder.
 std::vector<SequenceFiles> findSequences(const std::string& root);
 
+/// What a sequence is called: unique below a root.
+struct SequenceName {
+  std::string data_set;
+  std::string sequence;
+};
+
 /// Whether a word of a selection names a sequence: `all`, the sequence, its data set, or
-/// `data_set/sequence`.
-bool namesSequence(const std::string& word, const std::string& data_set,
-                   const std::string& sequence);
+/// `data_set/sequence`. This is the one rule of all programs.
+bool namesSequence(const std::string& word, const SequenceName& name);
+
+/// The sequences that the words of a selection name (namesSequence).
+///
+/// @param known  sequences to choose from.
+/// @param words  each must name one at least.
+/// @param place  where the known ones are, for the message: `below /data`, `in the catalog`.
+/// @return       ascending positions in `known`.
+/// @throws InvalidParameter  with the first word that names none, and the known names.
+std::vector<std::size_t> selectSequences(const std::vector<SequenceName>& known,
+                                         const std::vector<std::string>& words,
+                                         const std::string& place);
+
+/// The problem files below a root that the words of a selection name, of some kinds, in the order
+/// of findSequences().
+///
+/// @throws InvalidFile  as findSequences().
+/// @throws InvalidParameter  as selectSequences(), of the sequences that have problems of these
+///                           kinds.
+std::vector<SequenceFiles> selectProblemFiles(const std::string& root,
+                                              const std::vector<std::string>& words,
+                                              const std::vector<Kind>& kinds);
 
 }  // namespace pcrb

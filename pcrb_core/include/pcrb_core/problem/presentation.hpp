@@ -16,6 +16,16 @@ const char* toString(PresentationKind kind);
 /// @throws InvalidParameter  if the text is neither.
 PresentationKind presentationFromString(const std::string& text);
 
+/// How the problems of a run are put to its client.
+struct PresentationOptions {
+  PresentationKind kind = PresentationKind::kRegistration;
+  /// Localization of scans without a viewpoint: turn them secretly about z alone, not by any
+  /// rotation; gives their tilt away.
+  bool yaw_only = false;
+
+  bool isLocalization() const { return kind == PresentationKind::kLocalization; }
+};
+
 /// One problem as it is put to a client, in the target's local frame.
 ///
 /// In either presentation the client gets `applied · source` and is ideally answered by applied⁻¹.
@@ -40,12 +50,12 @@ Presentation presentForLocalization(const Transform& P, const Transform& V);
 /// it.
 ///
 /// With a viewpoint: turned by a secret yaw about the sensor's z. Without: the source's centroid
-/// with a secret rotation, uniform, or about z alone if `upright` (which gives the tilt away).
+/// with a secret rotation, uniform, or about z alone if `yaw_only` (which gives the tilt away).
 /// @param viewpoint  T_local_sensor; ignored where `has_viewpoint` is false.
 /// @param centroid   of the source, m, local frame.
 /// @param subject    names the problem.
 Transform secretSensorPose(const Secret& secret, const std::string& subject, bool has_viewpoint,
                            const Transform& viewpoint, const Eigen::Vector3d& centroid,
-                           bool upright);
+                           bool yaw_only);
 
 }  // namespace pcrb

@@ -2,11 +2,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "pcrb_core/problem/presentation.hpp"
-#include "pcrb_core/problem/problem.hpp"
+#include "pcrb_core/problem/secret.hpp"
+#include "pcrb_core/run/run_info.hpp"
 #include "pcrb_server/playback/scene.hpp"
 
 namespace pcrb {
@@ -32,32 +33,34 @@ struct SequenceOptions {
   double map_leaf = 0.0;              ///< m, edge of a voxel of the growing map; 0 = the data set's
   std::size_t map_points = 200000;    ///< limit of the growing map, > 0
   std::vector<std::string> excluded;  ///< file names that are no scans, e.g. a map in the folder
-  bool truth = true;  ///< false: what a node under test may see: the scan in its sensor's frame,
-                      ///< the map file, and the initial pose with the first scan
+  /// false: what a node under test may see: the scan in its sensor's frame, the map file, and the
+  /// initial pose with the first scan.
+  bool publish_ground_truth = true;
   std::string map_frame = "map";
-  std::string scan_frame = "pcrb_scan";  ///< of the scan without truth
+  std::string scan_frame = "pcrb_scan";  ///< of the scan without ground truth
 };
 
-/// @throws Error  if the folder, a name or the map is wrong, or, without truth, if the first cloud
+/// @throws Error  if the folder, a name or the map is wrong, or, without ground truth, if the first
+/// cloud
 ///                has no viewpoint.
 std::unique_ptr<Playback> playSequence(const SequenceOptions& options);
 
 /// Registration problems.
 struct ProblemsOptions {
-  std::string root;
-  std::vector<std::string> sequences;  ///< as `sequences` of benchmark_server
-  std::vector<Kind> kinds;
-  PresentationKind presentation = PresentationKind::kRegistration;
-  bool truth = true;   ///< false: the same that a client of the server sees, in a secret order
-  std::string secret;  ///< 32 hexadecimal digits; needed without truth and for localization
-  bool upright = false;
-  int subset = 0;            ///< number of problems drawn, 0 = all
-  int seed = 1;              ///< of that draw
-  double time_limit = 10.0;  ///< s, as the problems state it
+  RunConfiguration configuration;  ///< which problems, and how they are posed
+  /// false: the same that a client of the server sees, in a secret order.
+  bool publish_ground_truth = true;
+  std::optional<Secret> secret;  ///< needed without ground truth and for localization
   std::string map_frame = "map";
   std::string scan_frame = "pcrb_scan";
+
+  /// Whether anything that is shown is derived from a secret.
+  bool needsSecret() const {
+    return !publish_ground_truth || configuration.presentation.isLocalization();
+  }
 };
 
+/// @throws InvalidParameter  if there is no secret where one is needed.
 std::unique_ptr<Playback> playProblems(const ProblemsOptions& options);
 
 /// A finished or interrupted run: the results that it has.

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+
+#include "pcrb_core/run/result.hpp"
+#include "run/sqlite.hpp"
+
+namespace pcrb {
+
+/// Statements that make the tables of a results store (docs/formats.md).
+extern const char* const kResultsSchema;
+
+/// Names of the columns of table `result`, in order, separated by `, `.
+extern const char* const kResultColumns;
+
+/// The order in which results are listed, that of ProblemKey.
+extern const char* const kResultOrder;
+
+/// `INSERT` of one row, for bindResult.
+std::string insertResultSql();
+
+/// Binds all columns. Covariance becomes text: 36 numbers in their shortest exact form, separated
+/// by spaces, so that it reads the same in a shell, in CSV and here.
+void bindResult(const Result& result, Statement& statement);
+
+/// Reads a row of `SELECT kResultColumns`.
+/// @throws StoreError  if a value is not what bindResult writes.
+Result readResult(const Statement& row, const std::string& path);
+
+/// Reads the key from the first four columns of a row.
+/// @throws StoreError  if the kind is unknown.
+ProblemKey readKey(const Statement& row, const std::string& path);
+
+/// @throws StoreError  naming the column, if a number is not finite or out of range.
+void requireStorable(const Result& result, const std::string& path);
+
+/// Opens a results store, makes it where missing or empty, and sees to it that commits last.
+/// @throws StoreError  naming the file and what it is instead, or why it cannot be written.
+Database openStoreForWriting(const std::string& path);
+
+/// Opens a results store that exists, also beside an active writer and on a read-only disk.
+/// @throws StoreError  naming the file and what it is instead, or why it cannot be read.
+Database openStoreForReading(const std::string& path);
+
+}  // namespace pcrb
