@@ -61,6 +61,11 @@ class NodeParameters {
 
   std::vector<std::string> words(const std::string& name, const std::string& fallback);
 
+  /// Takes the parameters that a launch file loaded from a user's file below ~group, too. One that
+  /// is also given outside the group, as something that is neither its default nor the same, is a
+  /// mistake. Call it before the first read.
+  void addGroup(const std::string& group) { group_ = group; }
+
   /// Runs a check that throws pcrb::Error on a mistake, and keeps its message.
   void check(const std::function<void()>& statement);
 
@@ -78,6 +83,8 @@ class NodeParameters {
   std::string fallbackOf(const std::string& name) const;
   void requireValue(const std::string& name, bool is_empty, std::size_t mistakes);
   bool find(const std::string& name, XmlRpc::XmlRpcValue& value);
+  bool findInGroup(const std::string& name, XmlRpc::XmlRpcValue& value);
+  void checkNames();
   void checkPath(const std::string& name, const std::string& value);
   void mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
                const std::string& expected);
@@ -85,6 +92,7 @@ class NodeParameters {
   ParameterTable table_;
   ros::NodeHandle node_;
   std::set<std::string> asked_;
+  std::string group_;  ///< empty: none
   std::vector<std::string> mistakes_;
 };
 
