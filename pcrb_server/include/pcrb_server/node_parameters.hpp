@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -83,6 +84,7 @@ class NodeParameters {
   std::string fallbackOf(const std::string& name) const;
   void requireValue(const std::string& name, bool is_empty, std::size_t mistakes);
   bool find(const std::string& name, XmlRpc::XmlRpcValue& value);
+  bool findFormer(const std::string& name, XmlRpc::XmlRpcValue& value);
   bool findInGroup(const std::string& name, XmlRpc::XmlRpcValue& value);
   void checkNames();
   void checkPath(const std::string& name, const std::string& value);
@@ -92,7 +94,8 @@ class NodeParameters {
   ParameterTable table_;
   ros::NodeHandle node_;
   std::set<std::string> asked_;
-  std::string group_;  ///< empty: none
+  std::string group_;                            ///< empty: none
+  std::map<std::string, std::string> given_as_;  ///< former name, for those given under it
   std::vector<std::string> mistakes_;
 };
 

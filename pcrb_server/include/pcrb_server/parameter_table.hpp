@@ -11,6 +11,7 @@ struct NodeParameter {
   std::string fallback;  ///< default as a launch file would give it, or kRequired
   std::string unit;      ///< of a number; of a word: those allowed, separated by `|`; else empty
   std::string help;      ///< a phrase that stands alone
+  std::string former_name = {};  ///< under which it is taken, too
 };
 
 /// In place of a default: the parameter must be given.

@@ -103,8 +103,17 @@ std::vector<std::string> NodeParameters::words(const std::string& name) {
 
 bool NodeParameters::find(const std::string& name, XmlRpc::XmlRpcValue& value) {
   asked_.insert(name);
-  const bool is_given = node_.getParam(name, value);
+  const bool is_given = node_.getParam(name, value) || findFormer(name, value);
   return findInGroup(name, value) || is_given;
+}
+
+bool NodeParameters::findFormer(const std::string& name, XmlRpc::XmlRpcValue& value) {
+  const NodeParameter* const entry = findParameter(table_, name);
+  if (entry == nullptr || entry->former_name.empty()) return false;
+  if (!node_.getParam(entry->former_name, value)) return false;
+  asked_.insert(entry->former_name);
+  given_as_[name] = entry->former_name;
+  return true;
 }
 
 /// @param value  that is given outside the group, if there is one; becomes that of the group.
@@ -123,7 +132,9 @@ bool NodeParameters::findInGroup(const std::string& name, XmlRpc::XmlRpcValue& v
 
 void NodeParameters::mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
                              const std::string& expected) {
-  addMistake("~" + name + ": found " + describe(found) + ", expected " + expected);
+  const auto former = given_as_.find(name);
+  addMistake("~" + (former == given_as_.end() ? name : former->second) + ": found " +
+             describe(found) + ", expected " + expected);
 }
 
 std::string NodeParameters::string(const std::string& name, const std::string& fallback) {

@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t kHelpColumn = 36;
 constexpr std::size_t kHelpWidth = 100;
 
-/// `a, b or c`.
-std::string alternatives(const std::vector<std::string>& words) {
+/// `a, b or c`, without the word that is empty.
+std::string alternatives(std::vector<std::string> words) {
+  words.erase(std::remove(words.begin(), words.end(), ""), words.end());
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (i > 0) text += i + 1 == words.size() ? " or " : ", ";

@@ -15,7 +15,7 @@ namespace pcrb {
 /// Watches the run of the benchmark server in this node's namespace until it is over.
 ///
 /// A server that waits for ~start starts when this listens to it: with a fast client, the run could
-/// be over before. While this lives, the server sees that somebody reads its summary and stays (its
+/// be over before. While this lives, the server sees a reader of its summary and stays (its
 /// ~linger).
 class RunWatcher {
  public:
