@@ -174,6 +174,21 @@ rospy.spin()
         self.assert_fails(bridge, '4 mistakes', '~settle: found `soon`', '~scan_period: found',
                           '/nowhere', '~colour')
 
+    def test_a_file_of_parameters_counts_where_the_arguments_have_their_defaults_and_slashes_of_frames_do_not(self):
+        server = self.localization(subset=2)
+        self.answering(server)
+        bridge = self.bridge(server, settle='stable', map_frame='/map', base_frame='/base_link',
+                             bridge_parameters={'settle': 'first', 'scan_frame': '/lidar'})
+        rows = self.rows_of_bridge(server, bridge)
+        self.assert_motion_is_scored(rows)
+        self.assertEqual({row['scans_used'] for row in rows.values()}, {1})
+
+    def test_it_refuses_a_file_that_contradicts_an_argument(self):
+        bridge = self.bridge(self.localization(), settle='nth', max_scans=9,
+                             bridge_parameters={'settle': 'deadline', 'max_scans': 9, 'colour': 'red'})
+        self.assert_fails(bridge, '2 mistakes', '~settle: found `nth` as an argument and `deadline` in the file of '
+                          'bridge_parameters, expected one of the two', '~colour: no parameter')
+
 
 if __name__ == '__main__':
     rospy.init_node('bridge_behaviour_test')

@@ -41,7 +41,7 @@ class EvaluateTest(TestCase):
 
     def rostest(self, *options, **arguments):
         """evaluate.test, with a master of its own unless the options say otherwise."""
-        arguments = {'root': self.data.root, 'run': self.path('run'), 'method': 'icp', **arguments}
+        arguments = {'root': self.data.root, 'run': self.path('run'), 'method': 'icp', 'max_median': 100, **arguments}
         return self.start(Child(['rostest', *options, '--results-base-dir', self.path('results'), 'pcrb_launch',
                                  'evaluate.test', *(f'{name}:={value}' for name, value in arguments.items())]))
 
@@ -79,6 +79,11 @@ class EvaluateTest(TestCase):
                                r'kitchen local: q95 is .*, expected at most 1e-09 \(max_q95\)')
         self.assert_fails_with(self.rostest(kind='both', min_replied=2), r'~min_replied: found `2`')
         self.assert_fails_with(self.rostest(kind='both', max_median='attic=1'), 'not in this run: attic')
+
+    def test_without_a_threshold_or_with_a_misspelt_one_it_fails_with_what_to_give(self):
+        for misspelt in {}, {'max_meidan': 1}:
+            test = self.rostest(sequences='hall', subset=1, max_median='', **misspelt)
+            self.assert_fails_with(test, 'no threshold is given: expected max_median, max_q95 or min_replied')
 
     def test_judges_a_localization_node_as_it_is(self):
         data = maths.make_data_set(self.path('rooms'), points=1000)

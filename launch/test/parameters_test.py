@@ -57,6 +57,19 @@ class ParametersTest(TestCase):
                 self.assertIn(f'{name}: found `my/bench`, expected an absolute path: roslaunch starts programs in '
                               f'another folder; write {argument}:=$PWD/my/bench', launch.output())
 
+    def test_arguments_that_look_like_numbers_are_text_in_every_launch_file(self):
+        """0 would be false: replay would show the ground truth."""
+        for file, arguments, pattern in (
+                ('replay.launch', {'root': '/r', 'sequence': '00', 'truth': 'false', 'rviz': 'false'},
+                 r'/pcrb/replay/truth: false'),
+                ('localization.launch', {'root': '/r', 'run': '/run', 'node_launch': '/x.launch', 'node_args': '5'},
+                 r'/pcrb/benchmark_server/under_test: /x.launch 5'),
+                ('paper.launch', {'root': '/r', 'run': '/run', 'methods': '0'}, '')):
+            dump = self.start(Child(['roslaunch', '--dump-params', 'pcrb_launch', file,
+                                     *(f'{name}:={value}' for name, value in arguments.items())]))
+            self.assert_ends_well(dump)
+            self.assertRegex(dump.output(), pattern)
+
     def test_it_says_at_the_start_and_at_the_end_where_the_results_are(self):
         server = self.finished(self.server(self.data, sequences='kitchen hall', subset=3, shard='0/2'))
         self.assertRegex(server.output(), rf'results: {server.run}\nproblems: {self.data.root}, sequences hall kitchen, '

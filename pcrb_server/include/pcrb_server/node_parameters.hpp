@@ -62,15 +62,15 @@ class NodeParameters {
 
   std::vector<std::string> words(const std::string& name, const std::string& fallback);
 
+  /// Takes the parameters that a launch file loaded from a user's file below ~group, too. One that
+  /// is also given outside the group, as something that is neither its default nor the same, is a
+  /// mistake. Call it before the first read.
+  void addGroup(const std::string& group) { group_ = group; }
+
   /// Runs a check that throws pcrb::Error on a mistake, and keeps its message.
   void check(const std::function<void()>& statement);
 
   void addMistake(const std::string& mistake) { mistakes_.push_back(mistake); }
-
-  /// Names what a parameter was called before: it is read where the new name is not given.
-  void acceptOldName(const std::string& name, const std::string& old_name) {
-    old_names_[name] = old_name;
-  }
 
   /// Names a parameter that the node itself sets: one that an earlier start left is no mistake.
   void allowOwnParameter(const std::string& name) { asked_.insert(name); }
@@ -84,6 +84,9 @@ class NodeParameters {
   std::string fallbackOf(const std::string& name) const;
   void requireValue(const std::string& name, bool is_empty, std::size_t mistakes);
   bool find(const std::string& name, XmlRpc::XmlRpcValue& value);
+  bool findFormer(const std::string& name, XmlRpc::XmlRpcValue& value);
+  bool findInGroup(const std::string& name, XmlRpc::XmlRpcValue& value);
+  void checkNames();
   void checkPath(const std::string& name, const std::string& value);
   void mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
                const std::string& expected);
@@ -91,7 +94,8 @@ class NodeParameters {
   ParameterTable table_;
   ros::NodeHandle node_;
   std::set<std::string> asked_;
-  std::map<std::string, std::string> old_names_;  ///< by name
+  std::string group_;                            ///< empty: none
+  std::map<std::string, std::string> given_as_;  ///< former name, for those given under it
   std::vector<std::string> mistakes_;
 };
 

@@ -11,6 +11,7 @@ struct NodeParameter {
   std::string fallback;  ///< default as a launch file would give it, or kRequired
   std::string unit;      ///< of a number; of a word: those allowed, separated by `|`; else empty
   std::string help;      ///< a phrase that stands alone
+  std::string former_name = {};  ///< under which it is taken, too
 };
 
 /// In place of a default: the parameter must be given.
@@ -28,6 +29,13 @@ const NodeParameter* findParameter(const ParameterTable& table, const std::strin
 
 /// Words separated by commas or white space.
 std::vector<std::string> splitWords(const std::string& text);
+
+/// Arguments separated by white space, as in a shell: quotes, single or double, keep a value with
+/// blanks together; nothing else is special.
+///
+/// @param name  of the parameter, for the message.
+/// @throws InvalidParameter  if a quote is not closed.
+std::vector<std::string> splitArguments(const std::string& name, const std::string& text);
 
 /// The words of a parameter's unit, empty where it has none.
 std::vector<std::string> choicesOf(const NodeParameter& parameter);

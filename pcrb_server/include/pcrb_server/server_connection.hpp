@@ -34,10 +34,10 @@ class ServerConnection {
   /// Whether the server has said that the run is over.
   bool isFinished() const { return is_finished_; }
 
-  /// Calls `ready` for the problem announced last; warns and returns false if nobody answers.
+  /// Calls `ready` for the problem announced last; warns and returns false if no server answers.
   bool callReady();
 
-  /// Submits a reply; warns if nobody answers or it is rejected.
+  /// Submits a reply; warns if no server answers or it is rejected.
   void submit(const pcrb_msgs::SubmitPose::Request& request);
 
  private:

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/node_parameters.hpp"
 #include "pcrb_server/parameter_table.hpp"
 #include "ros/topic_peers.hpp"
@@ -108,12 +109,17 @@ void readTopics(NodeParameters& reader, BridgeParameters& parameters) {
   }
 }
 
+/// Old nodes put a slash in front of their frames; tf2 has none.
+std::string readFrame(NodeParameters& reader, const std::string& name) {
+  return withoutSlash(reader.string(name));
+}
+
 void readFrames(NodeParameters& reader, BridgeParameters& parameters) {
-  parameters.map_frame = reader.string("map_frame");
-  parameters.odom_frame = reader.string("odom_frame");
-  parameters.base_frame = reader.string("base_frame");
-  parameters.scan_frame = reader.string("scan_frame");
-  parameters.answer_frame = reader.string("answer_frame");
+  parameters.map_frame = readFrame(reader, "map_frame");
+  parameters.odom_frame = readFrame(reader, "odom_frame");
+  parameters.base_frame = readFrame(reader, "base_frame");
+  parameters.scan_frame = readFrame(reader, "scan_frame");
+  parameters.answer_frame = readFrame(reader, "answer_frame");
   if (parameters.answer_frame.empty()) parameters.answer_frame = parameters.base_frame;
   const std::set<std::string> names{parameters.map_frame, parameters.odom_frame,
                                     parameters.base_frame};
@@ -201,6 +207,7 @@ void readRestart(NodeParameters& reader, BridgeParameters& parameters) {
 
 BridgeParameters readBridgeParameters() {
   NodeParameters reader(kBridgeParameters);
+  reader.addGroup("bridge_parameters");
   BridgeParameters parameters;
   readTopics(reader, parameters);
   readFrames(reader, parameters);

@@ -19,7 +19,8 @@
 #include "bridge/bridge_parameters.hpp"
 #include "pcrb_core/transform.hpp"
 
-/// The frames between the benchmark's map and the sensor: where they are, and who publishes them.
+/// The frames between the benchmark's map and the sensor: their poses, and the nodes that publish
+/// them.
 namespace pcrb {
 
 /// The benchmark's poses are those of the sensor, a localization node's those of its body

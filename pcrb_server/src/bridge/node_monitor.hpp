@@ -50,8 +50,8 @@ class NodeMonitor {
   /// Whether the node has to be restarted before the problem.
   bool needsRestart() const { return needs_restart_; }
 
-  /// Asks the supervisor for a restart, which ends the node first; false, saying why, if nobody
-  /// answers or the supervisor cannot.
+  /// Asks the supervisor for a restart, which ends the node first; false, saying why, if no
+  /// supervisor answers or the supervisor cannot.
   bool restart();
 
   /// Whether the node that was asked for is there.

@@ -28,7 +28,7 @@ std::optional<pid_t> queryPid(const NodeAddress& address, double limit) {
   XmlRpc::XmlRpcDispatch dispatch;
   dispatch.addSource(&client,
                      XmlRpc::XmlRpcDispatch::WritableEvent | XmlRpc::XmlRpcDispatch::Exception);
-  dispatch.work(limit);  // ends with the answer, or at once where nobody listens
+  dispatch.work(limit);  // ends with the answer, or at once where no node listens
   const bool is_done = client.executeCheckDone(result);
   dispatch.clear();
   // The node answers [1, text, pid].

@@ -29,6 +29,12 @@ std::optional<std::string> textOf(XmlRpc::XmlRpcValue& value) {
   return std::nullopt;
 }
 
+/// As a launch file would give it.
+std::string asWritten(XmlRpc::XmlRpcValue& value) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeBoolean) return bool(value) ? "true" : "false";
+  return textOf(value).value_or("");
+}
+
 template <typename T>
 std::string range(T min, T max) {
   std::ostringstream text;
@@ -97,14 +103,38 @@ std::vector<std::string> NodeParameters::words(const std::string& name) {
 
 bool NodeParameters::find(const std::string& name, XmlRpc::XmlRpcValue& value) {
   asked_.insert(name);
-  if (node_.getParam(name, value)) return true;
-  const auto old_name = old_names_.find(name);
-  return old_name != old_names_.end() && find(old_name->second, value);
+  const bool is_given = node_.getParam(name, value) || findFormer(name, value);
+  return findInGroup(name, value) || is_given;
+}
+
+bool NodeParameters::findFormer(const std::string& name, XmlRpc::XmlRpcValue& value) {
+  const NodeParameter* const entry = findParameter(table_, name);
+  if (entry == nullptr || entry->former_name.empty()) return false;
+  if (!node_.getParam(entry->former_name, value)) return false;
+  asked_.insert(entry->former_name);
+  given_as_[name] = entry->former_name;
+  return true;
+}
+
+/// @param value  that is given outside the group, if there is one; becomes that of the group.
+bool NodeParameters::findInGroup(const std::string& name, XmlRpc::XmlRpcValue& value) {
+  XmlRpc::XmlRpcValue in_group;
+  if (group_.empty() || !node_.getParam(group_ + "/" + name, in_group)) return false;
+  const bool is_other = value.valid() && describe(value) != describe(in_group) &&
+                        asWritten(value) != fallbackOf(name);
+  if (is_other) {
+    addMistake("~" + name + ": found " + describe(value) + " as an argument and " +
+               describe(in_group) + " in the file of " + group_ + ", expected one of the two");
+  }
+  value = in_group;
+  return true;
 }
 
 void NodeParameters::mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
                              const std::string& expected) {
-  addMistake("~" + name + ": found " + describe(found) + ", expected " + expected);
+  const auto former = given_as_.find(name);
+  addMistake("~" + (former == given_as_.end() ? name : former->second) + ": found " +
+             describe(found) + ", expected " + expected);
 }
 
 std::string NodeParameters::string(const std::string& name, const std::string& fallback) {
@@ -205,16 +235,23 @@ void NodeParameters::check(const std::function<void()>& statement) {
   }
 }
 
-void NodeParameters::finish() {
+/// Names of the group count like those outside.
+void NodeParameters::checkNames() {
   std::vector<std::string> names;
   node_.getParamNames(names);
   const std::string prefix = node_.getNamespace() + "/";
+  const std::string group = group_.empty() ? "" : group_ + "/";
   for (const auto& name : names) {
     if (name.compare(0, prefix.size(), prefix) != 0) continue;
-    const std::string rest = name.substr(prefix.size());
+    std::string rest = name.substr(prefix.size());
+    if (!group.empty() && rest.compare(0, group.size(), group) == 0) rest.erase(0, group.size());
     const std::string key = rest.substr(0, rest.find('/'));
     if (asked_.insert(key).second) addMistake("~" + key + ": no parameter of this node");
   }
+}
+
+void NodeParameters::finish() {
+  checkNames();
   if (mistakes_.empty()) return;
   std::string message = std::to_string(mistakes_.size()) +
                         (mistakes_.size() == 1 ? " mistake" : " mistakes") + " in the parameters";

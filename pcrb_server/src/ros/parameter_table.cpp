@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t kHelpColumn = 36;
 constexpr std::size_t kHelpWidth = 100;
 
-/// `a, b or c`.
-std::string alternatives(const std::vector<std::string>& words) {
+/// `a, b or c`, without the word that is empty.
+std::string alternatives(std::vector<std::string> words) {
+  words.erase(std::remove(words.begin(), words.end(), ""), words.end());
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
@@ -88,6 +89,32 @@ std::vector<std::string> splitWords(const std::string& text) {
     }
   }
   return words;
+}
+
+std::vector<std::string> splitArguments(const std::string& name, const std::string& text) {
+  std::vector<std::string> arguments;
+  bool is_in_word = false;
+  char quote = 0;
+  for (const char c : text) {
+    const bool is_blank = c == ' ' || c == '\t' || c == '\n';
+    if (quote == 0 && is_blank) {
+      is_in_word = false;
+      continue;
+    }
+    if (!is_in_word) arguments.emplace_back();
+    is_in_word = true;
+    if (c == quote) {
+      quote = 0;
+    } else if (quote == 0 && (c == '"' || c == '\'')) {
+      quote = c;
+    } else {
+      arguments.back() += c;
+    }
+  }
+  if (quote != 0) {
+    throw InvalidParameter("~" + name + ": found `" + text + "`, expected a second " + quote);
+  }
+  return arguments;
 }
 
 std::vector<std::string> choicesOf(const NodeParameter& parameter) {

@@ -33,10 +33,10 @@ const ParameterTable kServerParameters{
     {"ready_limit", "60", "s", "time to wait for `ready` of each further problem"},
     {"global_guess", "false", "", "initial guess for global problems, too"},
     {"yaw_only", "false", "",
-     "localization without VIEWPOINT turns scans about z only; gives the tilt away"},
+     "localization without VIEWPOINT turns scans about z only; gives the tilt away", "upright"},
     {"autostart", "true", "", "start without the service ~start"},
     {"summary_hold_time", "5", "s",
-     "time that the summary stays up at the end, unless its readers have left before"},
+     "time that the summary stays up at the end, unless its readers have left before", "linger"},
     {"debug", "false", "", "the truth, published on debug/*; marks the run"},
     {"", "", "", "Frames and resources"},
     {"map_frame", "map", "", "frame of the target"},
@@ -112,8 +112,6 @@ void readFrames(NodeParameters& reader, ProblemFrames& frames) {
 
 ServerParameters readServerParameters() {
   NodeParameters reader(kServerParameters);
-  reader.acceptOldName("yaw_only", "upright");
-  reader.acceptOldName("summary_hold_time", "linger");
   ServerParameters parameters;
   readFolders(reader, parameters);
   readSelection(reader, parameters.configuration.selection);

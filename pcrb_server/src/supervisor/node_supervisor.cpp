@@ -3,6 +3,7 @@
 #include <pcrb_msgs/Result.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
 #include <thread>
 #include <utility>
@@ -31,7 +32,9 @@ std::string launchArgument(std::string word) {
 const ParameterTable kSupervisorParameters{
     {"launch", kRequired, "", "launch file, or its package and its name, separated by a blank"},
     {"args", "", "",
-     "arguments of the launch file, name=value, separated by blanks; $NAME and ${NAME:-other} are "
+     "arguments of the launch file, name=value, separated by blanks; quotes keep a value with "
+     "blanks "
+     "together; $NAME and ${NAME:-other} are "
      "variables of the environment"},
     {"autostart", "true", "", "start at once; false: only on request"}};
 
@@ -39,7 +42,12 @@ SupervisorParameters readSupervisorParameters() {
   NodeParameters reader(kSupervisorParameters);
   SupervisorParameters parameters;
   parameters.command = {"roslaunch", "--wait"};
-  const auto launch = reader.words("launch");
+  const std::string given = reader.string("launch");
+  std::vector<std::string> launch{given};
+  const bool is_path_with_blanks = std::filesystem::is_regular_file(given);
+  if (!is_path_with_blanks) {
+    reader.check([&] { launch = splitArguments("launch", given); });
+  }
   if (launch.size() > 2) {
     reader.addMistake("~launch: expected a launch file, or a package and its launch file");
   }
@@ -47,7 +55,10 @@ SupervisorParameters readSupervisorParameters() {
       launch.size() == 1 ? relativePathMistake("node_launch", launch.front()) : "";
   if (!mistake.empty()) reader.addMistake("~launch: " + mistake + ", or a package and its file");
   parameters.command.insert(parameters.command.end(), launch.begin(), launch.end());
-  for (const auto& word : reader.words("args")) {
+  std::vector<std::string> arguments;
+  const std::string text = reader.string("args");
+  reader.check([&] { arguments = splitArguments("args", text); });
+  for (const auto& word : arguments) {
     reader.check(
         [&] { parameters.command.push_back(expandVariables("~args", launchArgument(word))); });
     if (word.find('=') == std::string::npos) {

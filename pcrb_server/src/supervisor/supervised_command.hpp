@@ -11,7 +11,7 @@ namespace pcrb {
 /// A command and everything that it starts, ended together.
 ///
 /// roslaunch gives each node a session of its own, so that its process group does not have them:
-/// this process becomes the parent of whatever its descendants leave behind, and knows them all by
+/// this process becomes the parent of all that its descendants leave behind, and knows them all by
 /// that. One per process, and no other children beside it. Use it from one thread: the command gets
 /// SIGTERM when that thread ends without stop(), as when this process is killed.
 class SupervisedCommand {

@@ -21,7 +21,9 @@ const ParameterTable kEvaluationParameters{
      "largest median of the error allowed: `0.1` for every sequence and the total, `0.1 hall=0.5 "
      "hall:global=0.8` with others for some; empty: no limit"},
     {"max_q95", "", "", "largest 0.95 quantile of the error allowed, in the same form"},
-    {"min_replied", "1", "", "least fraction of problems with a valid reply, in the same form"},
+    {"min_replied", "", "",
+     "least fraction of problems with a valid reply, in the same form; empty: 1. One of the three "
+     "thresholds must be given"},
     {"time_limit_total", "3600", "s", "time from this node's start to the end of the run"},
     {"server", "benchmark_server", "", "name of the server's node"},
     {"clients", "", "",
@@ -100,15 +102,23 @@ EvaluationParameters readEvaluationParameters() {
   constexpr double kAny = std::numeric_limits<double>::max();
   NodeParameters reader(kEvaluationParameters);
   EvaluationParameters parameters;
-  const auto threshold = [&](const char* name, double max) {
+  bool is_any_given = false;
+  const auto threshold = [&](const char* name, double max, std::vector<std::string> fallback) {
     Threshold result;
-    const auto words = reader.words(name);
+    auto words = reader.words(name);
+    is_any_given |= !words.empty();
+    if (words.empty()) words = std::move(fallback);
     reader.check([&] { result = Threshold(name, words, max); });
     return result;
   };
-  parameters.thresholds.max_median = threshold("max_median", kAny);
-  parameters.thresholds.max_q95 = threshold("max_q95", kAny);
-  parameters.thresholds.min_replied = threshold("min_replied", 1.0);
+  parameters.thresholds.max_median = threshold("max_median", kAny, {});
+  parameters.thresholds.max_q95 = threshold("max_q95", kAny, {});
+  parameters.thresholds.min_replied = threshold("min_replied", 1.0, {"1"});
+  if (!is_any_given) {
+    reader.addMistake(
+        "no threshold is given: expected max_median, max_q95 or min_replied, such as "
+        "max_median:=0.05");
+  }
   parameters.time_limit_total = reader.number("time_limit_total", 0.1, 1e9);
   parameters.server = reader.string("server");
   parameters.clients = reader.words("clients");

@@ -3,14 +3,35 @@
 #include <pcrb_msgs/Summary.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pcrb_server/node_main.hpp"
-#include "verdict/junit_report.hpp"
 #include "verdict/threshold.hpp"
 
 namespace pcrb {
 
 extern const ParameterTable kEvaluationParameters;
+
+/// One test of a JUnit file. It failed if it has a failure.
+struct JunitCase {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> properties;
+  std::string failure;
+};
+
+/// A JUnit file's one test suite.
+struct JunitReport {
+  std::string suite;
+  std::vector<JunitCase> cases;
+  std::string printed;   ///< becomes `system-out`
+  double seconds = 0.0;  ///< that the suite took
+
+  std::size_t failures() const;
+};
+
+/// The file's text, all that comes from others made printableText().
+std::string toXml(const JunitReport& report);
 
 /// The verdict on a run: one test for the run itself and one per row of its summary, with every
 /// number as a property; the table, and every breach of a threshold, as printed text.

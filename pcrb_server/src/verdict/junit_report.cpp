@@ -1,11 +1,10 @@
-#include "verdict/junit_report.hpp"
-
 #include <tinyxml2.h>
 
 #include <algorithm>
 
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
+#include "verdict/evaluation.hpp"
 
 namespace pcrb {
 

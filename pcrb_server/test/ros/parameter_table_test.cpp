@@ -69,6 +69,13 @@ TEST(ParameterTable, FindsAnEntryByItsNameAndNoHeading) {
   EXPECT_EQ(findParameter(kTable, "rates"), nullptr);
 }
 
+TEST(ParameterTable, QuotesKeepAnArgumentTogetherAndCommasAreNothingSpecial) {
+  EXPECT_EQ(splitArguments("args", R"( pose=1,2,3 "map=/a b/m.pcd" name='' x="it's" )"),
+            (std::vector<std::string>{"pose=1,2,3", "map=/a b/m.pcd", "name=", "x=it's"}));
+  EXPECT_TRUE(splitArguments("args", " ").empty());
+  EXPECT_THROW(splitArguments("args", "map='/a b"), InvalidParameter);
+}
+
 TEST(ParameterTable, SplitsWordsAtCommasAndBlanks) {
   EXPECT_EQ(splitWords(" a,b\tc\n"), (std::vector<std::string>{"a", "b", "c"}));
   EXPECT_TRUE(splitWords(" , ").empty());

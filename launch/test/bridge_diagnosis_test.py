@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""localization_bridge: each bad manner of a node gets the diagnosis that is its own."""
+import os
+import sys
+
+import rospy
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from pcrb_testing import Child, executable
+from pcrb_testing_bridge import MOTION, AnsweringTestCase
+
+STAMP = r'^stamp: \d+ poses? with the stamp of no scan, 0\.\d+ s later'
+DIAGNOSES = {
+    'now': STAMP,
+    'ahead': r'^stamp: \d+ poses? with the stamp of no scan, 0\.200 s later: set ~answer_delay:=0\.200$',
+    'frame': r'^frame: \d+ poses?: tf does not connect the pose of `` in `world` with `base_link` and `map`$',
+    'nan': r'^invalid: \d+ poses?: \S+/pose: .*(finite|quaternion)',
+    'silent': r'^silent: the node said nothing to \d+ scans?, and worked for \d+\.\d s: .*see what it printed$',
+    'elsewhere': r'^topic: the node said nothing to \d+ scans?: no node publishes \S+/robot/pose; poses are published on '
+                 r'\S+/robot/somewhere \(geometry_msgs/PoseStamped by \S+/ill_mannered_localizer\)$'}
+
+
+class BridgeDiagnosisTest(AnsweringTestCase):
+
+    def ill_mannered(self, server, manner):
+        robot = f'{server.namespace}/robot'
+        remaps = {'map_cloud': 'map', 'scan_cloud': 'scan'}
+        return self.start(Child([executable('localization_standins', 'ill_mannered_localizer'), f'_manner:={manner}',
+                                 *(f'{own}:={robot}/{topic}' for own, topic in remaps.items())], robot))
+
+    def run_with(self, manner, subset=1, **parameters):
+        """Rows of a run with the node, and what the bridge printed."""
+        server = self.localization(run=manner, sequences='kitchen', subset=subset, time_limit=1.5)
+        node = self.ill_mannered(server, manner)
+        bridge = self.bridge(server, answer_limit=0.2, **parameters)
+        rows = list(self.rows_of_bridge(server, bridge).values())
+        node.kill()
+        return rows, bridge.output()
+
+    def test_each_bad_manner_has_its_diagnosis_as_the_reason_and_at_the_end(self):
+        for manner, diagnosis in DIAGNOSES.items():
+            (row,), output = self.run_with(manner)
+            self.assertEqual(row['outcome'], 'timed_out', manner)
+            self.assertRegex(row['reason'], diagnosis)
+            code = row['reason'].split(':')[0]
+            self.assertRegex(output, rf'problems without an answer, by cause .*\n  1 × {code}: ')
+
+    def test_the_advice_helps(self):
+        (row,), _ = self.run_with('ahead', answer_delay=0.2, settle='first')
+        self.assertEqual(row['outcome'], 'replied', row)
+
+    def test_the_second_problem_that_fails_alike_is_told_at_once(self):
+        rows, output = self.run_with('silent', subset=3)
+        self.assertEqual(len(rows), 3)
+        self.assertEqual(output.count('two problems without an answer, alike: the node said nothing to'), 1, output)
+        self.assertRegex(output, r'\n  3 × silent: ')
+
+    def test_a_run_that_is_worse_than_its_initial_guesses_is_warned_of(self):
+        far = MOTION.copy()
+        far[:3, 3] = [20.0, 0.0, 0.0]
+        server = self.localization(sequences='kitchen', subset=2)
+        self.answering(server, motion=far)
+        bridge = self.bridge(server, settle='first')
+        self.rows_of_bridge(server, bridge)
+        self.assertRegex(bridge.output(), r'warning: the median error of .* is worse than that of the initial guesses')
+
+
+if __name__ == '__main__':
+    rospy.init_node('bridge_diagnosis_test')
+    rostest.rosrun('pcrb_launch', 'bridge_diagnosis', BridgeDiagnosisTest)
