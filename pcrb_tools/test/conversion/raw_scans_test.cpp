@@ -1,9 +1,8 @@
-#include "conversion/depth_png.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "conversion/raw_scans.hpp"
 #include "pcrb_core/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"

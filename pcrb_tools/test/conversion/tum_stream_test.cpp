@@ -1,9 +1,8 @@
-#include "conversion/tum_gate.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "conversion/tum_stream.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb_tools {
@@ -20,25 +19,25 @@ pcrb::Trajectory makeTrajectory() {
   return pcrb::Trajectory(poses);
 }
 
-class TumGateAtTwoHertz : public testing::Test {
+class TumScanSelectorAtTwoHertz : public testing::Test {
  protected:
-  TumGateAtTwoHertz() {
+  TumScanSelectorAtTwoHertz() {
     request_.root = folder_.path();
     conversion_.emplace(request_, "plain", 0);
-    gate_.emplace(trajectory_, request_.options, 2.0, *conversion_);
+    selector_.emplace(trajectory_, request_.options, 2.0, *conversion_);
   }
 
   static pcrb::Stamp stampOf(double seconds) {
     return kStart + static_cast<pcrb::Stamp>(seconds * 1e9);
   }
 
-  bool admits(double seconds) { return gate_->admit(stampOf(seconds)).has_value(); }
+  bool selects(double seconds) { return selector_->select(stampOf(seconds)).has_value(); }
 
   /// Admitted images of a part of the log, by number; 30 Hz.
   std::set<int> play(int from, int to) {
     std::set<int> admitted;
     for (int i = from; i != to; ++i) {
-      if (admits(i / 30.0)) admitted.insert(i);
+      if (selects(i / 30.0)) admitted.insert(i);
     }
     return admitted;
   }
@@ -57,10 +56,11 @@ class TumGateAtTwoHertz : public testing::Test {
   const pcrb::Trajectory trajectory_ = makeTrajectory();
   TumRequest request_;
   std::optional<Conversion> conversion_;
-  std::optional<TumGate> gate_;
+  std::optional<TumScanSelector> selector_;
 };
 
-TEST_F(TumGateAtTwoHertz, AdmitsTheImagesOfOnePlayingThoughTheLogWasPlayedFromItsMiddleBefore) {
+TEST_F(TumScanSelectorAtTwoHertz,
+       AdmitsTheImagesOfOnePlayingThoughTheLogWasPlayedFromItsMiddleBefore) {
   pcrb::RateLimiter once(2.0);
   std::set<int> expected;
   for (int i = 0; i != 360; ++i) {
@@ -74,16 +74,16 @@ TEST_F(TumGateAtTwoHertz, AdmitsTheImagesOfOnePlayingThoughTheLogWasPlayedFromIt
   EXPECT_NE(text.notes.front().find("the stamps went back"), std::string::npos);
 }
 
-TEST_F(TumGateAtTwoHertz, GivesNoPlaceToImagesWithoutAPose) {
-  EXPECT_FALSE(admits(-0.1));
-  EXPECT_TRUE(admits(0.1));
-  EXPECT_FALSE(admits(0.2));
+TEST_F(TumScanSelectorAtTwoHertz, GivesNoPlaceToImagesWithoutAPose) {
+  EXPECT_FALSE(selects(-0.1));
+  EXPECT_TRUE(selects(0.1));
+  EXPECT_FALSE(selects(0.2));
 }
 
-TEST_F(TumGateAtTwoHertz, DropsARepetitionAsOne) {
-  EXPECT_TRUE(admits(0.0));
-  EXPECT_FALSE(admits(0.0));
-  EXPECT_FALSE(admits(0.1));
+TEST_F(TumScanSelectorAtTwoHertz, DropsARepetitionAsOne) {
+  EXPECT_TRUE(selects(0.0));
+  EXPECT_FALSE(selects(0.0));
+  EXPECT_FALSE(selects(0.1));
   const ConversionReport text = report();
   EXPECT_EQ(text.dropped.at("the stamp of an earlier one").size(), 1u);
   EXPECT_EQ(text.dropped.at("beyond the maximal rate").size(), 1u);

@@ -5,7 +5,10 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "pcrb_core/datasets/sensor_scan.hpp"
 #include "pcrb_core/datasets/stamp.hpp"
@@ -32,5 +35,22 @@ pcrb::SensorScan scanOf(const sensor_msgs::Image& image, const pcrb::Intrinsics&
 /// @throws InvalidFile  for distortion, binning and regions of interest: they would change every
 ///                      point, and the data set has none.
 pcrb::Intrinsics intrinsicsOf(const sensor_msgs::CameraInfo& info, const std::string& name);
+
+/// A decoded depth image.
+struct DepthPng {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint16_t> pixels;  ///< row by row
+
+  /// A view of the pixels, which must outlive it.
+  pcrb::DepthImage view(double units_per_metre) const;
+};
+
+/// Decodes a PNG with 16 bits of grey, to the numbers that are stored: gamma and the like change no
+/// depth.
+/// @param name  stands for the path in messages
+/// @throws InvalidFile  if it is damaged, of another kind, or claims more than 2^23 pixels: that is
+///                      refused before memory is taken for them.
+DepthPng decodeDepthPng(std::string_view bytes, const std::string& name);
 
 }  // namespace pcrb_tools
