@@ -14,7 +14,7 @@
 #include "benchmarking/merge_tool.hpp"
 #include "benchmarking/orphans.hpp"
 #include "benchmarking/shard.hpp"
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"

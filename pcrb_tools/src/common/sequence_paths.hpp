@@ -34,4 +34,21 @@ void exclude(SequenceFolder& folder, const std::vector<std::string>& names);
 /// @throws pcrb::InvalidParameter  if it is no cloud of the folder.
 std::size_t positionOf(const SequenceFolder& folder, const std::string& name);
 
+/// The original log of a sequence, as the data set's converter takes it.
+struct SequenceLog {
+  std::string data_set;  ///< eth, planetary, tum or kaist
+  std::string sequence;
+  std::vector<std::string> inputs;  ///< folders, archives and bags
+};
+
+/// A problem file in the common layout.
+struct ProblemFilePath {
+  std::string root;  ///< absolute
+  pcrb::SequenceFiles files;
+};
+
+/// @param path  `<root>/<data set>/<sequence>_<kind>.txt`
+/// @throws pcrb::InvalidFile  if it is no such file.
+ProblemFilePath splitProblemFilePath(const std::string& path);
+
 }  // namespace pcrb_tools
