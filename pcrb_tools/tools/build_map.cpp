@@ -1,6 +1,5 @@
 #include "common/tool_main.hpp"
-#include "pcrb_core/parallel.hpp"
-#include "preparation/map_tool.hpp"
+#include "preparation/preparation_tools.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -10,13 +9,12 @@ int main(int argc, char** argv) {
       "Memory is bounded by the map, not by the sequence.\n"
       "Example: build_map ~/pcrb/planetary/box_met -o ~/pcrb/planetary/p2at_met/box_map.pcd");
   pcrb_tools::MapOptions options;
-  options.threads = pcrb::processorCount();
   app.add_option("folder", options.folder, "<root>/<data set>/<sequence>, a folder of .pcd files")
       ->required();
-  app.add_option("-o,--output", options.output, "the map, a .pcd file")->required();
+  app.add_option("-o,--output", options.output, "file of the map, .pcd")->required();
   app.add_option("--leaf", options.leaf, "edge of a voxel, m [the data set's]");
-  app.add_option("--exclude", options.excluded, "clouds to leave out");
-  app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_option("--exclude", options.excluded, "names of clouds to leave out of the map");
+  pcrb_tools::addThreadsOption(app, options.threads);
   app.add_flag("--force", options.force, "replace an output that this tool did not make");
   return pcrb_tools::runTool(app, argc, argv, [&] {
     runMapTool(options);

@@ -1,8 +1,7 @@
 #include <iostream>
 
 #include "common/tool_main.hpp"
-#include "pcrb_core/parallel.hpp"
-#include "preparation/check_tool.hpp"
+#include "preparation/preparation_tools.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -14,14 +13,15 @@ int main(int argc, char** argv) {
       "was made with clouds in another frame, the offset that would explain it is estimated.\n"
       "Example: check_dataset ~/pcrb eth/apartment kaist");
   pcrb_tools::CheckOptions options;
-  options.threads = pcrb::processorCount();
-  app.add_option("root", options.root, "folder of data sets")->required();
-  app.add_option("sequences", options.sequences, "<data set> or <data set>/<sequence> [all]");
+  app.add_option("root", options.root, "folder of the data sets")->required();
+  app.add_option(
+      "sequences", options.sequences,
+      "sequences to check: names of sequences, data sets, or <data set>/<sequence> [all]");
   app.add_option("--overlap-pairs", options.overlap_pairs,
-                 "pairs of each problem file whose overlap is recomputed")
+                 "number of pairs of each problem file whose overlap is recomputed")
       ->capture_default_str();
   app.add_flag("--strict", options.strict, "exit with 1 for warnings too");
-  app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
+  pcrb_tools::addThreadsOption(app, options.threads);
   return pcrb_tools::runTool(app, argc, argv, [&] {
     return runCheckTool(options, std::cout) ? pcrb_tools::kSuccess : pcrb_tools::kFailure;
   });

@@ -4,8 +4,7 @@
 
 #include "common/tool_main.hpp"
 #include "fetch/fetch_tool.hpp"
-#include "pcrb_core/parallel.hpp"
-#include "preparation/check_tool.hpp"
+#include "preparation/preparation_tools.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -21,22 +20,24 @@ int main(int argc, char** argv) {
       "Example: fetch_datasets --logs ~/logs --root ~/benchmark eth/plain tum");
   pcrb_tools::FetchOptions options;
   bool fetch_only = false;
-  options.threads = pcrb::processorCount();
-  app.add_option("sequences", options.sequences, "<data set> or <data set>/<sequence> [all]");
+  app.add_option(
+      "sequences", options.sequences,
+      "sequences to fetch: names of sequences, data sets, or <data set>/<sequence> [all]");
   app.add_option("--logs", options.logs, "folder for what is downloaded")->required();
   app.add_option("--root", options.root, "root of the common layout")->required();
-  app.add_option("--from", options.from, "folder of files that you have: they are not downloaded");
-  app.add_flag("--original", options.original,
-               "original logs, to make problems of one's own, instead of the published files");
-  app.add_flag("--dry-run", options.dry_run, "only say what would be done");
+  app.add_option("--from", options.from, "folder of files that you have, which are not downloaded");
+  app.add_flag_function(
+      "--original", [&options](auto) { options.set = pcrb_tools::SourceSet::kOriginal; },
+      "fetch the original logs, to make problems of one's own, instead of the published files");
+  app.add_flag("--dry-run", options.dry_run, "say what would be done, and do nothing");
   app.add_flag("--force", options.force,
                "replace clouds and problem files below ROOT that are not the published ones");
-  app.add_flag("--fetch-only", fetch_only, "do not convert and check");
-  app.add_option("--threads", options.threads, "of converters and check")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  app.add_option("--sources", options.sources, "list of sources [config/datasets.yaml]");
-  app.add_option("--attempts", options.policy.attempts, "at a file, in a row without progress")
+  app.add_flag("--fetch-only", fetch_only, "neither convert nor check what was fetched");
+  pcrb_tools::addThreadsOption(app, options.threads);
+  app.add_option("--sources", options.sources,
+                 "file that lists the sources [config/datasets.yaml]");
+  app.add_option("--attempts", options.policy.attempts,
+                 "attempts at a file, in a row and without progress")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   return pcrb_tools::runTool(app, argc, argv, [&] {

@@ -1,32 +1,31 @@
 #include <CLI/CLI.hpp>
 
 #include "common/tool_main.hpp"
-#include "pcrb_core/parallel.hpp"
 #include "simulation/sample_logs.hpp"
 
 int main(int argc, char** argv) {
   pcrb_tools::simulation::SampleLogsRequest request;
-  request.threads = pcrb::processorCount();
   CLI::App app{
       "Simulates short logs in the original formats of the four data sets, by ray casting: "
       "something to try everything on before the real logs are there."};
-  app.add_option("--output", request.output, "Folder for the logs, new or empty")->required();
-  app.add_option("--seed", request.seed, "Same seed, same bytes")
+  app.add_option("--output", request.output, "folder for the logs, new or empty")->required();
+  app.add_option("--seed", request.seed,
+                 "seed of all that is random: the same gives the same bytes")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--size", request.size, "small (seconds), medium, or large (the sensors' density)")
+  app.add_option("--size", request.size,
+                 "size of the logs: small (seconds), medium, or large (the sensors' density)")
       ->check(CLI::IsMember({"small", "medium", "large"}))
       ->capture_default_str();
-  app.add_option("--data-set", request.data_sets, "Only these (repeatable)")
+  app.add_option("--data-set", request.data_sets, "data set to simulate, several if repeated")
       ->check(CLI::IsMember({"eth", "planetary", "tum", "kaist"}))
       ->capture_default_str();
-  app.add_option("--ground-truth-error", request.ground_truth_error,
-                 "Moves every ground-truth pose by this length, m; ground_truth_error.csv says how")
+  app.add_option(
+         "--ground-truth-error", request.ground_truth_error,
+         "length that every ground-truth pose is moved by, m; ground_truth_error.csv says how")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--threads", request.threads, "Does not change a byte")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  pcrb_tools::addThreadsOption(app, request.threads);
   app.footer("Example: make_sample_logs --output ~/sample_logs --seed 1");
   return pcrb_tools::runTool(app, argc, argv, [&request] {
     pcrb_tools::simulation::makeSampleLogs(request);

@@ -14,9 +14,9 @@ int main(int argc, char** argv) {
       "error.\n"
       "Example: prepare_dataset --logs ~/logs --root ~/benchmark eth/apartment kaist");
   pcrb_tools::PrepareOptions options;
-  options.threads = pcrb::processorCount();
-  app.add_option("sequences", options.sequences,
-                 "data sets, sequences, or <data set>/<sequence> [all]");
+  app.add_option(
+      "sequences", options.sequences,
+      "sequences to prepare: names of sequences, data sets, or <data set>/<sequence> [all]");
   app.add_option("--logs", options.logs, "folder of the original logs")->required();
   app.add_option("--root", options.root, "root of the common layout")->required();
   pcrb_tools::addChoice<pcrb_tools::PrepareStage>(
@@ -26,25 +26,29 @@ int main(int argc, char** argv) {
        {"overlap", pcrb_tools::PrepareStage::kOverlap},
        {"problems", pcrb_tools::PrepareStage::kProblems},
        {"check", pcrb_tools::PrepareStage::kCheck}},
-      "last stage [check]");
-  app.add_option("--seed", options.seed, "of the problems")
+      "last stage to run [check]");
+  app.add_option("--seed", options.seed, "seed that the problems are drawn with")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   pcrb_tools::addChoice<pcrb::BoundsSource>(
       app, "--bounds", options.bounds,
       {{"measured", pcrb::BoundsSource::kMeasured}, {"note", pcrb::BoundsSource::kNote}},
-      "of perturbations: measured in the published problem files, or upstream's note [measured]");
-  app.add_option("--kaist-max-rate", options.kaist_max_rate, "Hz; 0 = all scans")
+      "bounds of the perturbations: measured in the published problem files, or of upstream's note "
+      "[measured]");
+  app.add_option("--kaist-max-rate", options.kaist_max_rate,
+                 "rate that KAIST's scans are thinned to, Hz; 0 = all scans")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--window", options.window,
-                 "sequences of more than twice as many clouds: only pairs this many places apart")
+                 "places that a pair may be apart in sequences of more than twice as many clouds")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--overlap-pairs", options.overlap_pairs,
-                 "pairs of each problem file whose overlap is recomputed by the check")
+                 "number of pairs of each problem file whose overlap the check recomputes")
       ->capture_default_str();
-  app.add_option("-j,--jobs,--threads", options.threads, "does not change a byte")
+  options.threads = pcrb::processorCount();
+  app.add_option("-j,--jobs,--threads", options.threads,
+                 "number of threads, which does not change the result")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   return pcrb_tools::runTool(app, argc, argv, [&options] {

@@ -1,8 +1,7 @@
 #include <map>
 
 #include "common/tool_main.hpp"
-#include "pcrb_core/parallel.hpp"
-#include "preparation/sampling_tool.hpp"
+#include "preparation/preparation_tools.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -14,7 +13,6 @@ int main(int argc, char** argv) {
       "record the seed. Needs the matrix of compute_overlap.\n"
       "Example: sample_problems ~/pcrb/planetary/p2at_met --map box_map.pcd");
   pcrb_tools::SamplingOptions options;
-  options.threads = pcrb::processorCount();
   const std::map<std::string, std::vector<pcrb::Kind>> kinds{
       {"local", {pcrb::Kind::kLocal}},
       {"global", {pcrb::Kind::kGlobal}},
@@ -25,19 +23,23 @@ int main(int argc, char** argv) {
   std::string bounds_name = "measured";
   app.add_option("folder", options.folder, "<root>/<data set>/<sequence>, a folder of .pcd files")
       ->required();
-  app.add_option("--overlap", options.overlap, "the overlap matrix [<folder>_overlap.txt]");
-  app.add_option("--kind", kind, "local, global or both [both]")->check(CLI::IsMember(kinds));
-  app.add_option("--seed", options.seed)->check(CLI::NonNegativeNumber)->capture_default_str();
+  app.add_option("--overlap", options.overlap, "file of the overlap matrix [<folder>_overlap.txt]");
+  app.add_option("--kind", kind, "kind of the problems: local, global or both [both]")
+      ->check(CLI::IsMember(kinds));
+  app.add_option("--seed", options.seed, "seed that the problems are drawn with")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--bounds", bounds_name,
-                 "perturbation bounds of the four published data sets: those measured in the "
-                 "published problem files, or those of upstream's note [measured]")
+                 "bounds of the perturbations of the four published data sets: measured in the "
+                 "published problem files, or of upstream's note [measured]")
       ->check(CLI::IsMember(bounds));
-  app.add_option("--map", options.map,
-                 "pose every cloud against this map, without threshold and intervals");
+  app.add_option(
+      "--map", options.map,
+      "name of a map that every cloud is posed against, without threshold and intervals");
   app.add_option("--sequence", options.sequence,
-                 "name of the problems [the folder's; planetary_map with --map]");
-  app.add_option("--exclude", options.excluded, "clouds to draw no pairs from");
-  app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
+                 "name of the problems' sequence [the folder's; planetary_map with --map]");
+  app.add_option("--exclude", options.excluded, "names of clouds to draw no pairs from");
+  pcrb_tools::addThreadsOption(app, options.threads);
   app.add_flag("--force", options.force, "replace problem files that this tool did not make");
   return pcrb_tools::runTool(app, argc, argv, [&] {
     options.kinds = kinds.at(kind);

@@ -43,6 +43,8 @@ class PointField {
  private:
   const std::uint8_t* first_;
   std::size_t step_;
+  std::size_t width_;    ///< points of a row
+  std::size_t padding_;  ///< bytes behind the points of a row
   bool is_double_;
 };
 

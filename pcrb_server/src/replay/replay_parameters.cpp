@@ -28,7 +28,8 @@ const ParameterTable kReplayParameters{
     {"publish_ground_truth", "true", "",
      "false: only what a node under test may see, the scan in its sensor's frame, the map file, "
      "and "
-     "the initial pose with the first scan"},
+     "the initial pose with the first scan",
+     "truth"},
     {"scan_frame", "pcrb_scan", "", "frame of the scan without ground truth"},
     {"stamps_file", "", "",
      "list of which scan was published when, written at the end, for score_poses --scans"},
@@ -88,7 +89,6 @@ void readRun(NodeParameters& reader, const std::string& root, ReplayParameters& 
 
 ReplayParameters readReplayParameters() {
   NodeParameters reader(kReplayParameters);
-  reader.acceptOldName("publish_ground_truth", "truth");
   ReplayParameters parameters;
   const std::string root = reader.path("root", "");
   const std::string sequence = reader.string("sequence");

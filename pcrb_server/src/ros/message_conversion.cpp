@@ -46,17 +46,35 @@ sensor_msgs::PointField floatField(const std::string& name, std::uint32_t offset
 
 }  // namespace
 
+namespace {
+
+/// Bytes from a row of points to the next. A row may be padded; `row_step` counts unless there is
+/// one row only, it is not given, or the data are exactly the points.
+///
+/// @throws InvalidProblem  if it is neither, or the rows do not fit the data.
+std::size_t rowBytes(const sensor_msgs::PointCloud2& message) {
+  const std::size_t packed = std::size_t{message.width} * message.point_step;
+  const bool is_packed = message.height <= 1 || message.row_step == 0 ||
+                         message.data.size() == packed * message.height;
+  const std::size_t row = is_packed ? packed : message.row_step;
+  const bool has_points = message.height > 0 && message.point_step > 0;
+  const std::size_t needed = has_points ? (message.height - std::size_t{1}) * row + packed : 0;
+  if (message.point_step > 0 && row >= packed && needed <= message.data.size()) return row;
+  throw InvalidProblem("PointCloud2: found " + std::to_string(message.data.size()) +
+                       " bytes of data, expected " +
+                       std::to_string(std::size_t{message.width} * message.height) + " points of " +
+                       std::to_string(message.point_step) + " bytes in " +
+                       std::to_string(message.height) + " rows of " + std::to_string(row));
+}
+
+}  // namespace
+
 std::size_t countPoints(const sensor_msgs::PointCloud2& message) {
   if (message.is_bigendian != 0) {
     throw InvalidProblem("PointCloud2: found big-endian data, expected little-endian");
   }
-  const std::size_t count = std::size_t{message.width} * message.height;
-  if (message.point_step == 0 || message.data.size() / message.point_step < count) {
-    throw InvalidProblem("PointCloud2: found " + std::to_string(message.data.size()) +
-                         " bytes of data, expected " + std::to_string(count) + " points of " +
-                         std::to_string(message.point_step) + " bytes");
-  }
-  return count;
+  rowBytes(message);
+  return std::size_t{message.width} * message.height;
 }
 
 bool hasField(const sensor_msgs::PointCloud2& message, const std::string& name) {
@@ -69,7 +87,10 @@ bool hasFloatField(const sensor_msgs::PointCloud2& message, const std::string& n
 }
 
 PointField::PointField(const sensor_msgs::PointCloud2& message, const std::string& name)
-    : first_(message.data.data()), step_(message.point_step) {
+    : first_(message.data.data()),
+      step_(message.point_step),
+      width_(message.width),
+      padding_(rowBytes(message) - step_ * width_) {
   const auto field = findField(message, name);
   if (field == message.fields.end()) {
     throw InvalidProblem("PointCloud2: found no field " + name + ", expected x, y and z");
@@ -85,7 +106,8 @@ PointField::PointField(const sensor_msgs::PointCloud2& message, const std::strin
 }
 
 double PointField::operator[](std::size_t point) const {
-  const std::uint8_t* const bytes = first_ + point * step_;
+  const std::uint8_t* bytes = first_ + point * step_;
+  if (padding_ > 0) bytes += point / width_ * padding_;
   return is_double_ ? loadAs<double>(bytes) : loadAs<float>(bytes);
 }
 

@@ -54,6 +54,38 @@ TEST(MessageConversion, ReadsOrganizedCloudsWithPaddingDoublesAndNoRowStep) {
   EXPECT_EQ(cloud.points[0], Eigen::Vector3f(0.5f, 1.5f, 2.5f));
 }
 
+/// Two rows of the same three points, each followed by bytes that are no point.
+sensor_msgs::PointCloud2 paddedRows(std::uint32_t padding) {
+  sensor_msgs::PointCloud2 message = toMessage(threePoints(), Transform::Identity(), {});
+  message.data.resize(message.row_step + padding, 0x41);
+  message.data.insert(message.data.end(), message.data.begin(), message.data.end());
+  message.height = 2;
+  message.row_step += padding;
+  return message;
+}
+
+TEST(MessageConversion, ReadsRowsWithBytesBetweenThem) {
+  sensor_msgs::PointCloud2 message = paddedRows(20);
+  const PointCloud cloud = fromMessage(message);
+  ASSERT_EQ(cloud.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(cloud.points[i], threePoints().points[i % 3]) << i;
+  message.data.resize(message.data.size() - 20);  // the last row's may be missing
+  EXPECT_EQ(fromMessage(message).points, cloud.points);
+  message.data.resize(message.data.size() - 1);
+  EXPECT_THROW(fromMessage(message), InvalidProblem);
+}
+
+TEST(MessageConversion, TakesRowsAsPackedWithoutARowStepOrWhereTheDataLeaveNoDoubt) {
+  sensor_msgs::PointCloud2 message = paddedRows(0);
+  const PointCloud cloud = fromMessage(message);
+  for (const std::uint32_t row_step : {0U, 1U, 1000U}) {
+    message.row_step = row_step;
+    EXPECT_EQ(fromMessage(message).points, cloud.points) << row_step;
+  }
+  message.data.push_back(0);
+  EXPECT_THROW(fromMessage(message), InvalidProblem);  // rows of 1000 bytes are not there
+}
+
 TEST(MessageConversion, RejectsMessagesThatDoNotHoldWhatTheySay) {
   const sensor_msgs::PointCloud2 good = toMessage(threePoints(), Transform::Identity(), {});
   sensor_msgs::PointCloud2 message = good;

@@ -3,14 +3,25 @@
 #include <ros/exception.h>
 #include <rosbag/view.h>
 
-#include "common/file_identity.hpp"
-#include "common/interruption.hpp"
+#include <algorithm>
+#include <filesystem>
+
+#include "common/process.hpp"
+#include "pcrb_core/io/derived_file.hpp"
 
 namespace pcrb_tools {
 
+bool isBag(const std::string& path) { return std::filesystem::path(path).extension() == ".bag"; }
+
+bool areBags(const std::vector<std::string>& inputs) {
+  const auto bags = std::count_if(inputs.begin(), inputs.end(), isBag);
+  if (bags == 0 || static_cast<std::size_t>(bags) == inputs.size()) return bags > 0;
+  throw pcrb::InvalidParameter("found bags together with other inputs, expected bags only or none");
+}
+
 BagMessages::BagMessages(const std::vector<std::string>& paths) {
   for (const auto& path : paths) {
-    identity_ += fileIdentity(path) + ' ';
+    identity_ += pcrb::fileIdentity(path) + ' ';
     paths_ += (paths_.empty() ? "" : " + ") + path;
     bags_.push_back(std::make_unique<rosbag::Bag>());
     try {

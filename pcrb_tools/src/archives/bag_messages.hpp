@@ -12,6 +12,13 @@
 
 namespace pcrb_tools {
 
+/// Whether a path has a bag's ending.
+bool isBag(const std::string& path);
+
+/// Whether the inputs of a converter are bags: all of them or none.
+/// @throws InvalidParameter  for bags together with other inputs.
+bool areBags(const std::vector<std::string>& inputs);
+
 /// The messages of some topics of bags, in the order in which they were recorded.
 class BagMessages {
  public:

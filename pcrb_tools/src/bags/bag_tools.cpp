@@ -6,10 +6,10 @@
 
 #include "bags/problem_key.hpp"
 #include "bags/scene_bag.hpp"
-#include "common/interruption.hpp"
-#include "common/problem_file_path.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
-#include "common/provenance.hpp"
+#include "common/sequence_paths.hpp"
+#include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
@@ -26,54 +26,51 @@ namespace fs = std::filesystem;
 const char* trueOrFalse(bool value) { return value ? "true" : "false"; }
 
 /// What the bag is made from, as far as both tools have it in common.
-Provenance makeProvenance(const std::string& tool, const BagOptions& options,
-                          const std::string& cloud_folder) {
-  Provenance provenance(tool);
-  provenance.setParameter("period", pcrb::formatShortest(options.period));
-  provenance.setParameter("compress", trueOrFalse(options.compress));
+pcrb::DerivedFile describeBag(const std::string& tool, const BagOptions& options,
+                              const std::string& cloud_folder) {
+  pcrb::DerivedFile bag(options.output, tool);
+  bag.setParameter("period", pcrb::formatShortest(options.period));
+  bag.setParameter("compress", trueOrFalse(options.compress));
   for (const std::string& name : pcrb::findClouds(cloud_folder)) {
-    provenance.addInput(cloud_folder + "/" + name);
+    bag.addInput(cloud_folder + "/" + name);
   }
-  return provenance;
+  return bag;
 }
 
-Provenance makeProvenance(const SequenceBagOptions& options) {
+pcrb::DerivedFile describeBag(const SequenceBagOptions& options) {
   const pcrb::SequenceOptions& sequence = options.sequence;
-  Provenance provenance = makeProvenance("sequence_to_bag", options.bag, sequence.folder);
-  if (!sequence.map_file.empty()) provenance.addInput(sequence.map_file);
+  pcrb::DerivedFile bag = describeBag("sequence_to_bag", options.bag, sequence.folder);
+  if (!sequence.map_file.empty()) bag.addInput(sequence.map_file);
   std::string excluded;
   for (const std::string& name : sequence.excluded) excluded += name + ' ';
-  provenance.setParameter("excluded", excluded);
-  provenance.setParameter("map_leaf", pcrb::formatShortest(sequence.map_leaf));
-  provenance.setParameter("map_points", std::to_string(sequence.map_points));
-  provenance.setParameter("truth", trueOrFalse(sequence.publish_ground_truth));
-  provenance.setParameter("frames", sequence.map_frame + ' ' + sequence.scan_frame);
-  return provenance;
+  bag.setParameter("excluded", excluded);
+  bag.setParameter("map_leaf", pcrb::formatShortest(sequence.map_leaf));
+  bag.setParameter("map_points", std::to_string(sequence.map_points));
+  bag.setParameter("truth", trueOrFalse(sequence.publish_ground_truth));
+  bag.setParameter("frames", sequence.map_frame + ' ' + sequence.scan_frame);
+  return bag;
 }
 
-Provenance makeProvenance(const ProblemsBagOptions& options, const pcrb::SequenceFiles& files) {
+pcrb::DerivedFile describeBag(const ProblemsBagOptions& options, const pcrb::SequenceFiles& files) {
   const pcrb::ProblemsOptions& problems = options.problems;
-  Provenance provenance = makeProvenance("problems_to_bag", options.bag, files.cloud_folder);
-  provenance.addInput(files.problem_file);
+  pcrb::DerivedFile bag = describeBag("problems_to_bag", options.bag, files.cloud_folder);
+  bag.addInput(files.problem_file);
   const pcrb::RunConfiguration& configuration = problems.configuration;
-  provenance.setParameter("presentation", pcrb::toString(configuration.presentation.kind));
-  provenance.setParameter("upright", trueOrFalse(configuration.presentation.yaw_only));
-  provenance.setParameter("truth", trueOrFalse(problems.publish_ground_truth));
-  provenance.setParameter("subset", std::to_string(configuration.selection.subset));
-  provenance.setParameter("seed", std::to_string(configuration.selection.seed));
-  provenance.setParameter("frames", problems.map_frame + ' ' + problems.scan_frame);
-  return provenance;
+  bag.setParameter("presentation", pcrb::toString(configuration.presentation.kind));
+  bag.setParameter("upright", trueOrFalse(configuration.presentation.yaw_only));
+  bag.setParameter("truth", trueOrFalse(problems.publish_ground_truth));
+  bag.setParameter("subset", std::to_string(configuration.selection.subset));
+  bag.setParameter("seed", std::to_string(configuration.selection.seed));
+  bag.setParameter("frames", problems.map_frame + ' ' + problems.scan_frame);
+  return bag;
 }
 
-bool isComplete(const Provenance& provenance, const BagOptions& options,
-                const std::string& companion) {
+/// Whether the bag and its companion need not be made again.
+bool isComplete(const pcrb::DerivedFile& bag, bool force, const std::string& companion) {
   const bool is_there = companion.empty() || fs::is_regular_file(companion);
-  if (!is_there || !provenance.isUpToDate(options.output)) {
-    if (!options.force) Provenance::requireReplaceable(options.output);
-    return false;
-  }
-  std::cerr << options.output << ": complete and unchanged, kept" << std::endl;
-  return true;
+  if (is_there) return isKept(bag, force);
+  if (!force && !bag.isUpToDate()) bag.requireReplaceable();
+  return false;
 }
 
 /// Plays everything once into the bag.
@@ -97,14 +94,14 @@ void writeBag(pcrb::Playback& playback, const BagOptions& options, const std::st
 }  // namespace
 
 void runSequenceBagTool(const SequenceBagOptions& options) {
-  const Provenance provenance = makeProvenance(options);
-  if (isComplete(provenance, options.bag, options.scans)) return;
+  const pcrb::DerivedFile bag = describeBag(options);
+  if (isComplete(bag, options.bag.force, options.scans)) return;
   const auto playback = pcrb::playSequence(options.sequence);
   std::string scans;
   writeBag(*playback, options.bag, "scans",
            [&scans](const pcrb::Scene& scene) { appendScan(scans, scene); });
   if (!options.scans.empty()) pcrb::writeFileAtomically(options.scans, scans);
-  provenance.record(options.bag.output);
+  bag.record();
 }
 
 void runProblemsBagTool(const ProblemsBagOptions& given) {
@@ -121,8 +118,8 @@ void runProblemsBagTool(const ProblemsBagOptions& given) {
   selection.root = path.root;
   selection.sequences = {path.files.data_set + "/" + path.files.sequence};
   selection.kinds = {path.files.kind};
-  const Provenance provenance = makeProvenance(options, path.files);
-  if (isComplete(provenance, options.bag, options.key)) return;
+  const pcrb::DerivedFile bag = describeBag(options, path.files);
+  if (isComplete(bag, options.bag.force, options.key)) return;
   problems.secret = pcrb::Secret::draw();
   ProblemKey key{fs::path(path.files.problem_file).filename().string(),
                  pcrb::fileHash(path.files.problem_file),
@@ -137,7 +134,7 @@ void runProblemsBagTool(const ProblemsBagOptions& given) {
                                                                 scene.name};
   });
   if (!options.key.empty()) pcrb::writeFileAtomically(options.key, formatProblemKey(key));
-  provenance.record(options.bag.output);
+  bag.record();
 }
 
 }  // namespace pcrb_tools

@@ -13,7 +13,7 @@
 #include "benchmarking/batch_configuration.hpp"
 #include "benchmarking/orphans.hpp"
 #include "benchmarking/shard.hpp"
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pcrb_core/parallel.hpp"
 #include "pcrb_server/node_parameters.hpp"
 
 namespace pcrb_tools {
@@ -51,6 +52,24 @@ int complain(const std::string& tool, std::string what, int status) {
 }
 
 }  // namespace
+
+CLI::Option* addThreadsOption(CLI::App& app, int& threads) {
+  constexpr int kMostThreads = 1024;
+  threads = pcrb::processorCount();
+  return app
+      .add_option("--threads", threads, "number of threads, which does not change the result")
+      ->check(CLI::Range(1, kMostThreads))
+      ->capture_default_str();
+}
+
+bool isKept(const pcrb::DerivedFile& output, bool force) {
+  if (output.isUpToDate()) {
+    std::cerr << output.path() << ": complete and unchanged, kept" << std::endl;
+    return true;
+  }
+  if (!force) output.requireReplaceable();
+  return false;
+}
 
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   const std::string tool = toolName(argc, argv);

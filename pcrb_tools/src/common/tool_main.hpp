@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "pcrb_core/io/derived_file.hpp"
+
 namespace pcrb_tools {
 
 /// Exit statuses of all offline tools.
@@ -23,6 +25,16 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
   return app.add_option_function<std::string>(name, choose, description)
       ->check(CLI::IsMember(choices));
 }
+
+/// Adds `--threads`, by default one per processor.
+CLI::Option* addThreadsOption(CLI::App& app, int& threads);
+
+/// Whether an output is complete and unchanged, which is said on standard error: then a tool has
+/// nothing to do.
+///
+/// @param force  replace an output that is somebody else's.
+/// @throws pcrb::InvalidFile  if it is somebody else's, without force.
+bool isKept(const pcrb::DerivedFile& output, bool force);
 
 /// Parses the command line and runs a tool: what every offline tool's main ends with.
 ///

@@ -1,10 +1,12 @@
 #include "conversion/conversion.hpp"
 
-#include <filesystem>
+#include <memory>
 #include <utility>
 
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/problem.hpp"
 
 namespace pcrb_tools {
@@ -14,6 +16,49 @@ namespace {
 constexpr const char* kConverterVersion = "2";
 
 }  // namespace
+
+void noteDuplicatePoses(const pcrb::Trajectory& trajectory, Conversion& conversion) {
+  if (trajectory.duplicates() > 0) {
+    conversion.note(std::to_string(trajectory.duplicates()) +
+                    " poses have the stamp of an earlier one and were not used");
+  }
+}
+
+std::string poseText(const pcrb::Transform& pose) {
+  std::string text;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      text += ' ';
+      pcrb::appendShortest(text, pose.matrix()(row, column));
+    }
+  }
+  return text;
+}
+
+void convertFileScans(const LogFiles& files, std::vector<FileScan> scans, Conversion& conversion) {
+  std::map<std::size_t, FileScan> in_archives;
+  std::vector<std::size_t> indices;
+  for (auto& scan : scans) {
+    const LogFile& file = files.all().at(scan.file);
+    if (!conversion.wants(scan.cloud_name, file.identity + '\n' + file.name + '\n' + scan.origin)) {
+      continue;
+    }
+    if (file.in_archive) {
+      indices.push_back(scan.file);
+      in_archives.emplace(scan.file, std::move(scan));
+      continue;
+    }
+    conversion.add(scan.cloud_name, [&files, index = scan.file, make = std::move(scan.make)] {
+      return make(files.read(index).text(), files.all()[index].path());
+    });
+  }
+  files.readArchived(indices, [&](std::size_t index, std::string bytes) {
+    FileScan& scan = in_archives.at(index);
+    const auto shared = std::make_shared<const std::string>(std::move(bytes));
+    conversion.add(scan.cloud_name, [shared, path = files.all()[index].path(),
+                                     make = std::move(scan.make)] { return make(*shared, path); });
+  });
+}
 
 Conversion::Conversion(const ConversionRequest& request, const std::string& sequence,
                        std::size_t total_scans)
@@ -28,7 +73,7 @@ Conversion::Conversion(const ConversionRequest& request, const std::string& sequ
 }
 
 bool Conversion::wants(const std::string& cloud_name, const std::string& origin) {
-  const std::string fingerprint = fingerprintOf(kConverterVersion + ('\n' + origin));
+  const std::string fingerprint = pcrb::fingerprintOf(kConverterVersion + ('\n' + origin));
   std::optional<pcrb::PointCounts> kept;
   if (!live_) kept = folder_.kept(cloud_name, fingerprint);
   if (!kept && !force_) folder_.requireReplaceable(cloud_name);
@@ -76,7 +121,7 @@ void Conversion::add(const std::string& cloud_name, Make make) {
   }
 }
 
-void Conversion::takeBack(const std::string& cloud_name) {
+void Conversion::retract(const std::string& cloud_name) {
   workers_.finish();
   const std::lock_guard<std::mutex> lock(mutex_);
   fingerprints_.erase(cloud_name);
@@ -90,7 +135,7 @@ void Conversion::drop(const std::string& scan_name, const std::string& reason) {
   progress_.add(1);
 }
 
-void Conversion::noteGoingBack() {
+void Conversion::noteTimeJump() {
   if (!went_back_) note("the stamps went back: what was published again was converted once");
   went_back_ = true;
 }
@@ -119,28 +164,6 @@ ConversionReport Conversion::finish() {
          (live_ ? "; a live run, which may see a part of a log, removes none" : ""));
   }
   return report_;
-}
-
-std::vector<std::string> describeMissingClouds(const ConversionRequest& request,
-                                               const ConversionReport& report) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::path(request.root) / request.data_set / report.sequence;
-  std::vector<std::string> lines;
-  for (const char* kind : {"_local.txt", "_global.txt"}) {
-    const fs::path file = folder.parent_path() / (report.sequence + kind);
-    if (!fs::exists(file)) continue;
-    std::set<std::string> missing;
-    for (const auto& problem : pcrb::readProblemFile(file.string())) {
-      for (const auto& name : {problem.source, problem.target}) {
-        if (report.written.count(name) == 0 && !fs::exists(folder / name)) missing.insert(name);
-      }
-    }
-    for (const auto& name : missing) {
-      lines.push_back(file.filename().string() + " names " + name + ", which is not in " +
-                      folder.string());
-    }
-  }
-  return lines;
 }
 
 }  // namespace pcrb_tools

@@ -5,58 +5,27 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/progress.hpp"
 #include "conversion/cloud_folder.hpp"
+#include "conversion/conversion_report.hpp"
+#include "conversion/log_files.hpp"
 #include "conversion/worker_pool.hpp"
 #include "pcrb_core/datasets/sensor_scan.hpp"
+#include "pcrb_core/datasets/trajectory.hpp"
 #include "pcrb_core/point_cloud.hpp"
+#include "pcrb_core/transform.hpp"
 
 namespace pcrb_tools {
-
-/// What all converters are asked for.
-struct ConversionRequest {
-  std::vector<std::string> inputs;  ///< folders, archives, bags, single files
-  std::string root;                 ///< of the common layout
-  std::string data_set;
-  std::string sequence;  ///< empty: from the names of the inputs
-  int threads = 1;
-
-  /// Scans that may wait for a thread, with their data; 0 = as many as threads.
-  std::size_t max_waiting = 0;
-  /// A stream that is published meanwhile: it cannot wait, so that one more is dropped; and it may
-  /// be another one than before, or a part, so that what an earlier run made is neither taken for
-  /// done nor removed.
-  bool live = false;
-  bool force = false;  ///< replace clouds that no converter made, or that were changed since
-};
 
 /// A cloud and what was left out of it.
 struct ConvertedScan {
   pcrb::DatasetCloud cloud;
   pcrb::PointCounts counts;
 };
-
-/// What a conversion did.
-struct ConversionReport {
-  std::string sequence;
-  std::size_t scans_read = 0;        ///< in the log, dropped ones included
-  std::size_t scans_kept = 0;        ///< of the written ones: complete from an earlier run
-  std::set<std::string> written;     ///< names of the clouds, kept ones included
-  std::vector<std::string> removed;  ///< clouds of earlier runs that this one does not make
-  std::vector<std::string> others;   ///< clouds in the folder that are not of this run
-  std::map<std::string, std::vector<std::string>> dropped;  ///< names of scans, by reason
-  pcrb::PointCounts points;                                 ///< of the written clouds
-  std::vector<std::string> notes;                           ///< what a user should know
-
-  std::size_t scansDropped() const;
-};
-
-/// The report in a few lines of text.
-std::string formatReport(const ConversionReport& report);
 
 /// One run of a converter: clouds are made in parallel and end up in their folder; what an earlier
 /// run completed from the same inputs is kept, what it made and this one does not is removed.
@@ -83,7 +52,7 @@ class Conversion {
 
   /// Forgets a cloud that was announced before, as better scans for it have come; waits for those
   /// under way.
-  void takeBack(const std::string& cloud_name);
+  void retract(const std::string& cloud_name);
 
   /// Counts a scan that becomes no cloud.
   void drop(const std::string& scan_name, const std::string& reason);
@@ -93,8 +62,8 @@ class Conversion {
 
   void note(const std::string& text) { report_.notes.push_back(text); }
 
-  /// Notes, once, that a stream went back in time.
-  void noteGoingBack();
+  /// Notes, once, that the stamps of a stream jumped back.
+  void noteTimeJump();
 
   /// Waits for all clouds, then removes those of earlier runs that are not among them.
   ///
@@ -125,12 +94,23 @@ class Conversion {
   WorkerPool workers_;  // last: its threads end before what they use
 };
 
-/// Lines for clouds that problem files beside the sequence's folder name and that are not in it;
-/// empty without problem files.
-std::vector<std::string> describeMissingClouds(const ConversionRequest& request,
-                                               const ConversionReport& report);
+/// Notes poses of a ground truth that were not used, as they have the stamp of an earlier one.
+void noteDuplicatePoses(const pcrb::Trajectory& trajectory, Conversion& conversion);
 
-/// Prints the report and the clouds that are missing: what every converter ends with.
-void printReport(const ConversionRequest& request, const ConversionReport& report);
+/// A pose for fingerprints: equal texts mean equal bits.
+std::string poseText(const pcrb::Transform& pose);
+
+/// A cloud that is made from one file of a log.
+struct FileScan {
+  std::size_t file = 0;  ///< index among the log's files
+  std::string cloud_name;
+  std::string origin;  ///< what the cloud depends on beside the file: pose, options
+  /// Makes the cloud from the file's bytes; `path` is for messages.
+  std::function<ConvertedScan(std::string_view bytes, const std::string& path)> make;
+};
+
+/// Converts scans that are one file each, in parallel: files of folders are read by the workers,
+/// archives once from start to end.
+void convertFileScans(const LogFiles& files, std::vector<FileScan> scans, Conversion& conversion);
 
 }  // namespace pcrb_tools

@@ -1,7 +1,10 @@
+#include "conversion/conversion_report.hpp"
+
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
-#include "conversion/conversion.hpp"
+#include "pcrb_core/problem/problem.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -51,6 +54,28 @@ std::string formatReport(const ConversionReport& report) {
   text << '\n';
   for (const auto& note : report.notes) text << "  note: " << note << '\n';
   return text.str();
+}
+
+std::vector<std::string> describeMissingClouds(const ConversionRequest& request,
+                                               const ConversionReport& report) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(request.root) / request.data_set / report.sequence;
+  std::vector<std::string> lines;
+  for (const char* kind : {"_local.txt", "_global.txt"}) {
+    const fs::path file = folder.parent_path() / (report.sequence + kind);
+    if (!fs::exists(file)) continue;
+    std::set<std::string> missing;
+    for (const auto& problem : pcrb::readProblemFile(file.string())) {
+      for (const auto& name : {problem.source, problem.target}) {
+        if (report.written.count(name) == 0 && !fs::exists(folder / name)) missing.insert(name);
+      }
+    }
+    for (const auto& name : missing) {
+      lines.push_back(file.filename().string() + " names " + name + ", which is not in " +
+                      folder.string());
+    }
+  }
+  return lines;
 }
 
 void printReport(const ConversionRequest& request, const ConversionReport& report) {

@@ -1,13 +1,11 @@
-#include "conversion/eth_conversion.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <utility>
 
-#include "conversion/file_scans.hpp"
+#include "conversion/conversion.hpp"
+#include "conversion/converters.hpp"
 #include "conversion/log_files.hpp"
-#include "conversion/pose_text.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb_tools {
@@ -16,9 +14,9 @@ namespace {
 using pcrb::EthFrame;
 using Poses = std::map<std::uint64_t, pcrb::Transform>;
 
-constexpr const char* kPoseFile = "pose_scanner_leica.csv";
+constexpr const char* kLeicaFile = "pose_scanner_leica.csv";
 
-bool isPoseFile(const LogFile& file) { return file.fileName() == kPoseFile; }
+bool isPoseFile(const LogFile& file) { return file.fileName() == kLeicaFile; }
 
 /// The sequence that the innermost part of a path is named after.
 std::string sequenceOf(const LogFile& file) {
@@ -30,7 +28,7 @@ std::string sequenceOf(const LogFile& file) {
   return found;
 }
 
-std::string sequenceName(const EthRequest& request, const LogFile& first_scan) {
+std::string ethSequenceOf(const EthRequest& request, const LogFile& first_scan) {
   const std::string name = request.sequence.empty() ? sequenceOf(first_scan) : request.sequence;
   if (name.empty()) {
     throw pcrb::InvalidParameter("found no known sequence in the path " + first_scan.path() +
@@ -40,7 +38,7 @@ std::string sequenceName(const EthRequest& request, const LogFile& first_scan) {
 }
 
 /// Scan files of a frame by number.
-std::map<std::uint64_t, std::size_t> findScans(const LogFiles& files, EthFrame frame) {
+std::map<std::uint64_t, std::size_t> findEthScans(const LogFiles& files, EthFrame frame) {
   std::map<std::uint64_t, std::size_t> scans;
   for (std::size_t i = 0; i != files.all().size(); ++i) {
     const auto name = pcrb::parseEthScanName(files.all()[i].fileName());
@@ -70,8 +68,8 @@ std::pair<Poses, std::string> findPoses(const LogFiles& files) {
   return {pcrb::parseLeicaPoses(files.text(found.front()), path), path};
 }
 
-ConvertedScan makeCloud(std::string_view bytes, const std::string& path, EthFrame frame,
-                        const pcrb::Transform& pose) {
+ConvertedScan makeEthCloud(std::string_view bytes, const std::string& path, EthFrame frame,
+                           const pcrb::Transform& pose) {
   pcrb::SensorScan scan = pcrb::parseEthScan(bytes, path);
   const pcrb::PointCounts counts = scan.counts;
   if (frame == EthFrame::kLocal) return {pcrb::placeScan(std::move(scan), pose), counts};
@@ -101,7 +99,7 @@ std::pair<std::map<std::uint64_t, std::size_t>, EthFrame> chooseScans(const LogF
                                                                       const EthRequest& request) {
   for (const EthFrame frame : {EthFrame::kGlobal, EthFrame::kLocal}) {
     if (request.frame.value_or(frame) != frame) continue;
-    auto scans = findScans(files, frame);
+    auto scans = findEthScans(files, frame);
     if (!scans.empty()) return {std::move(scans), frame};
   }
   throw pcrb::InvalidFile(request.inputs.front(), 0, "no scan",
@@ -110,11 +108,11 @@ std::pair<std::map<std::uint64_t, std::size_t>, EthFrame> chooseScans(const LogF
                                                                 : "files Hokuyo_N.csv");
 }
 
-FileScan planScan(std::uint64_t number, std::size_t file, EthFrame frame,
-                  const pcrb::Transform& T_world_scanner) {
+FileScan planEthScan(std::uint64_t number, std::size_t file, EthFrame frame,
+                     const pcrb::Transform& T_world_scanner) {
   return {file, pcrb::ethCloudName(number), poseText(T_world_scanner),
           [frame, T_world_scanner](std::string_view bytes, const std::string& path) {
-            return makeCloud(bytes, path, frame, T_world_scanner);
+            return makeEthCloud(bytes, path, frame, T_world_scanner);
           }};
 }
 
@@ -124,7 +122,7 @@ ConversionReport convertEth(const EthRequest& request) {
   const LogFiles files(request.inputs, isPoseFile);
   const auto [scans, frame] = chooseScans(files, request);
   const auto [poses, pose_path] = findPoses(files);
-  const std::string sequence = sequenceName(request, files.all()[scans.begin()->second]);
+  const std::string sequence = ethSequenceOf(request, files.all()[scans.begin()->second]);
   std::vector<FileScan> work;
   std::size_t without_pose = 0;
   for (const auto& [number, file] : scans) {
@@ -133,15 +131,15 @@ ConversionReport convertEth(const EthRequest& request) {
     if (pose == poses.end() && frame == EthFrame::kLocal) {
       throw pcrb::InvalidFile(pose_path.empty() ? files.all()[file].path() : pose_path, 0,
                               "no pose of scan " + std::to_string(number),
-                              std::string("one in ") + kPoseFile);
+                              std::string("one in ") + kLeicaFile);
     }
-    work.push_back(planScan(number, file, frame,
-                            pose == poses.end() ? pcrb::Transform::Identity() : pose->second));
+    work.push_back(planEthScan(number, file, frame,
+                               pose == poses.end() ? pcrb::Transform::Identity() : pose->second));
   }
   Conversion conversion(request, sequence, work.size());
   noteMissingNumbers(scans, sequence, conversion);
   if (without_pose > 0) {
-    conversion.note(std::to_string(without_pose) + " scans have no pose in " + kPoseFile +
+    conversion.note(std::to_string(without_pose) + " scans have no pose in " + kLeicaFile +
                     ": their VIEWPOINT is not set");
   }
   convertFileScans(files, std::move(work), conversion);

@@ -1,12 +1,13 @@
-#include "conversion/kaist_conversion.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <utility>
 
-#include "conversion/kaist_gate.hpp"
-#include "conversion/spool_folder.hpp"
+#include "archives/bag_messages.hpp"
+#include "conversion/converters.hpp"
+#include "conversion/kaist_stream.hpp"
+#include "conversion/log_files.hpp"
+#include "conversion/raw_scans.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 
@@ -14,8 +15,6 @@ namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool isBag(const std::string& path) { return fs::path(path).extension() == ".bag"; }
 
 /// Name of the folder that a file lies in.
 std::string folderName(const LogFile& file) {
@@ -29,7 +28,8 @@ struct SensorFiles {
   std::size_t unlisted = 0;          ///< files that the list does not have
 };
 
-std::map<pcrb::Stamp, std::size_t> findScans(const LogFiles& files, const std::string& folder) {
+std::map<pcrb::Stamp, std::size_t> findVelodyneScans(const LogFiles& files,
+                                                     const std::string& folder) {
   std::map<pcrb::Stamp, std::size_t> scans;
   for (std::size_t i = 0; i != files.all().size(); ++i) {
     const LogFile& file = files.all()[i];
@@ -48,7 +48,7 @@ std::map<pcrb::Stamp, std::size_t> findScans(const LogFiles& files, const std::s
 
 SensorFiles listScans(const LogFiles& files, const std::string& folder) {
   SensorFiles sensor;
-  sensor.scans = findScans(files, folder);
+  sensor.scans = findVelodyneScans(files, folder);
   const auto lists =
       files.find([&](const LogFile& file) { return file.fileName() == folder + "_stamp.csv"; });
   if (lists.empty()) return sensor;
@@ -96,9 +96,9 @@ class KaistLog {
     Conversion conversion(request_, sequence, left_.scans.size() + left_.missing.size());
     // Shared with the workers, who may outlive this call's variables when it fails.
     const auto spool = std::make_shared<const SpoolFolder>(conversion.folder());
-    KaistGate gate(frames_, request_, sequence, conversion);
+    KaistScanSelector selector(frames_, request_, sequence, conversion);
     noteLists(sequence, conversion);
-    const auto work = planPairs(gate, conversion);
+    const auto work = planPairs(selector, conversion);
     spoolArchived(work, *spool);
     for (const Work& pair : work) {
       conversion.add(pair.pair.cloud_name, [this, spool, pair] {
@@ -111,7 +111,7 @@ class KaistLog {
 
  private:
   struct Work {
-    KaistGate::Pair pair;
+    KaistScanSelector::Pair pair;
     std::size_t left, right;  ///< files
   };
 
@@ -131,12 +131,12 @@ class KaistLog {
   }
 
   /// The pairs that become clouds and are not there yet.
-  std::vector<Work> planPairs(KaistGate& gate, Conversion& conversion) const {
+  std::vector<Work> planPairs(KaistScanSelector& selector, Conversion& conversion) const {
     const auto right_stamps = stampsOf(right_);
     std::vector<Work> work;
     for (const auto& [stamp, left] : left_.scans) {
       const pcrb::Stamp right_stamp = pcrb::closestStamp(right_stamps, stamp);
-      auto pair = gate.admit(stamp, right_stamp);
+      auto pair = selector.select(stamp, right_stamp);
       if (!pair) continue;
       const std::size_t right = right_.scans.at(right_stamp);
       const std::string origin = identityOf(left) + identityOf(right) + pair->origin;
@@ -171,16 +171,36 @@ class KaistLog {
   KaistFrames frames_;
 };
 
+ConversionReport convertKaistBags(const KaistRequest& request) {
+  const BagMessages bags(request.inputs);
+  const std::size_t lefts = bags.count({request.left_topic});
+  if (lefts == 0 || bags.count({request.right_topic}) == 0) {
+    throw pcrb::InvalidFile(
+        request.inputs.front(), 0,
+        "no message on " + (lefts == 0 ? request.left_topic : request.right_topic),
+        "scans of both sensors");
+  }
+  const KaistFrames frames = readFrames(request, nullptr);
+  const std::string sequence = kaistSequence(request, request.inputs.front());
+  Conversion conversion(request, sequence, lefts);
+  KaistStream stream(frames, request, sequence, bags.identity(), conversion);
+  bags.forEach({request.left_topic, request.right_topic},
+               [&](const rosbag::MessageInstance& instance) {
+                 const auto cloud = messageAs<sensor_msgs::PointCloud2>(instance);
+                 if (instance.getTopic() == request.left_topic) {
+                   stream.addLeft(cloud);
+                 } else {
+                   stream.addRight(cloud);
+                 }
+               });
+  stream.finish();
+  return conversion.finish();
+}
+
 }  // namespace
 
 ConversionReport convertKaist(const KaistRequest& request) {
-  const auto bags = std::count_if(request.inputs.begin(), request.inputs.end(), isBag);
-  if (bags > 0 && static_cast<std::size_t>(bags) != request.inputs.size()) {
-    throw pcrb::InvalidParameter(
-        "found bags together with other inputs, expected bags only "
-        "(with --poses and both calibration files) or none");
-  }
-  if (bags > 0) return convertKaistBags(request);
+  if (areBags(request.inputs)) return convertKaistBags(request);
   const LogFiles files(request.inputs, [](const LogFile& file) {
     const std::string name = file.fileName();
     return isFrameFile(file) || name == "VLP_left_stamp.csv" || name == "VLP_right_stamp.csv";

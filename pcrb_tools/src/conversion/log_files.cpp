@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "archives/archive_reader.hpp"
-#include "common/file_identity.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/pcd.hpp"
 
 namespace pcrb_tools {
@@ -74,7 +76,7 @@ void LogFiles::addInput(const std::string& input) {
   } else if (isArchiveName(input)) {
     archives_.push_back(input);
   } else {
-    files_.push_back({input, "", false, fileIdentity(input)});
+    files_.push_back({input, "", false, pcrb::fileIdentity(input)});
   }
 }
 
@@ -95,14 +97,14 @@ void LogFiles::addFolder(const std::string& container, const std::string& folder
       if (isArchiveName(file)) {
         archives_.push_back(file);
       } else {
-        files_.push_back({container, name, false, fileIdentity(file)});
+        files_.push_back({container, name, false, pcrb::fileIdentity(file)});
       }
     }
   }
 }
 
 void LogFiles::addArchive(const std::string& path, const Predicate& read_at_once) {
-  const std::string identity = fileIdentity(path);
+  const std::string identity = pcrb::fileIdentity(path);
   std::set<std::string> names;
   ArchiveReader reader(path);
   std::uint64_t left = std::min(kMaxTexts, reader.sizeLimit());
@@ -149,6 +151,30 @@ void LogFiles::readArchived(const std::vector<std::size_t>& indices, const Taker
     }
     if (!names.empty()) throw pcrb::InvalidFile(path, "changed while it was read");
   }
+}
+
+namespace fs = std::filesystem;
+
+SpoolFolder::SpoolFolder(const std::string& folder)
+    : folder_((fs::path(folder) / ".spool").string()) {
+  fs::remove_all(folder_);
+}
+
+SpoolFolder::~SpoolFolder() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+void SpoolFolder::write(std::size_t number, const std::string& bytes) const {
+  fs::create_directories(folder_);
+  std::ofstream file(path(number), std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw pcrb::InvalidFile(path(number), "cannot be written");
+}
+
+std::string SpoolFolder::path(std::size_t number) const {
+  return (fs::path(folder_) / std::to_string(number)).string();
 }
 
 }  // namespace pcrb_tools

@@ -1,10 +1,8 @@
-#include "conversion/planetary_conversion.hpp"
-
 #include <utility>
 
-#include "conversion/file_scans.hpp"
+#include "conversion/conversion.hpp"
+#include "conversion/converters.hpp"
 #include "conversion/log_files.hpp"
-#include "conversion/pose_text.hpp"
 #include "pcrb_core/datasets/planetary.hpp"
 #include "pcrb_core/error.hpp"
 
@@ -59,8 +57,8 @@ std::string requireOneSet(const LogFiles& files, const std::map<std::string, std
   return set;
 }
 
-ConvertedScan makeCloud(std::string_view bytes, const std::string& path,
-                        const pcrb::Transform& T_world_sensor) {
+ConvertedScan makePlanetaryCloud(std::string_view bytes, const std::string& path,
+                                 const pcrb::Transform& T_world_sensor) {
   pcrb::SensorScan scan = pcrb::parsePlanetaryScan(bytes, path);
   const pcrb::PointCounts counts = scan.counts;
   return {pcrb::placeScan(std::move(scan), T_world_sensor), counts};
@@ -87,7 +85,7 @@ ConversionReport convertPlanetary(const PlanetaryRequest& request) {
         files.text(pose_file->second), files.all()[pose_file->second].path());
     work.push_back({index, stem + ".pcd", poseText(T_world_sensor),
                     [T_world_sensor](std::string_view bytes, const std::string& path) {
-                      return makeCloud(bytes, path, T_world_sensor);
+                      return makePlanetaryCloud(bytes, path, T_world_sensor);
                     }});
   }
   Conversion conversion(request, request.sequence.empty() ? set : request.sequence, work.size());

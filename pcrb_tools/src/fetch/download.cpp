@@ -1,12 +1,15 @@
 #include "fetch/download.hpp"
 
+#include <curl/curl.h>
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <string_view>
 #include <thread>
 
-#include "fetch/confirmation.hpp"
 #include "fetch/transfer.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/text.hpp"
@@ -14,9 +17,52 @@
 namespace pcrb_tools {
 namespace {
 
-namespace fs = std::filesystem;
-using Outcome = TransferResult::Outcome;
+using Url = std::unique_ptr<CURLU, void (*)(CURLU*)>;
+using CurlText = std::unique_ptr<char, void (*)(void*)>;
 
+std::string unescaped(const std::string& html) {
+  std::string text = html;
+  for (std::size_t at = text.find("&amp;"); at != std::string::npos;
+       at = text.find("&amp;", at + 1)) {
+    text.replace(at, 5, "&");
+  }
+  return text;
+}
+
+/// The value of an attribute of a tag, in double quotes.
+std::optional<std::string> attribute(const std::string& tag, const std::string& name) {
+  const std::string begin = " " + name + "=\"";
+  const std::size_t at = tag.find(begin);
+  if (at == std::string::npos) return std::nullopt;
+  const std::size_t value = at + begin.size();
+  const std::size_t end = tag.find('"', value);
+  if (end == std::string::npos) return std::nullopt;
+  return unescaped(tag.substr(value, end - value));
+}
+
+std::optional<std::string> part(CURLU* url, CURLUPart which) {
+  char* text = nullptr;
+  if (curl_url_get(url, which, &text, 0) != CURLUE_OK) return std::nullopt;
+  const CurlText owner(text, &curl_free);
+  return std::string(text);
+}
+
+bool isGoogle(const std::string& host) {
+  for (const std::string_view end : {".google.com", ".googleusercontent.com"}) {
+    if (host.size() > end.size() && host.compare(host.size() - end.size(), end.size(), end) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Adds `name=value` to the URL's query.
+bool append(CURLU* url, const std::string& name, const std::string& value) {
+  return curl_url_set(url, CURLUPART_QUERY, (name + "=" + value).c_str(),
+                      CURLU_APPENDQUERY | CURLU_URLENCODE) == CURLUE_OK;
+}
+
+namespace fs = std::filesystem;
 void removePart(const std::string& part) {
   fs::remove(part);
   fs::remove(part + ".from");
@@ -45,14 +91,14 @@ class Attempts {
     for (int left = policy_.attempts - 1;; --left) {
       const std::uintmax_t before = sizeOrZero(part_);
       const TransferResult result = transfer_.fetch(url, file_.url, part_, file_.google_drive);
-      if (result.outcome == Outcome::kComplete && !result.html.empty()) {
+      if (result.outcome == TransferResult::Outcome::kComplete && !result.html.empty()) {
         url = confirm(result, is_confirmed);
         is_confirmed = true;
         continue;
       }
-      if (result.outcome == Outcome::kComplete) return;
-      if (result.outcome == Outcome::kPermanent) fail(file_, result.what);
-      if (result.outcome == Outcome::kRestart) removePart(part_);
+      if (result.outcome == TransferResult::Outcome::kComplete) return;
+      if (result.outcome == TransferResult::Outcome::kPermanent) fail(file_, result.what);
+      if (result.outcome == TransferResult::Outcome::kRestart) removePart(part_);
       if (sizeOrZero(part_) > before) {  // it gets on: be as patient as at first
         left = policy_.attempts - 1;
         delay = policy_.first_delay;
@@ -111,6 +157,38 @@ class Attempts {
 };
 
 }  // namespace
+
+std::optional<std::string> confirmedUrl(const std::string& html, const std::string& page_url) {
+  const std::size_t form = html.find("<form");
+  if (form == std::string::npos) return std::nullopt;
+  const std::size_t end = std::min(html.find("</form", form), html.size());
+  const auto action = attribute(html.substr(form, html.find('>', form) - form), "action");
+  const Url url(curl_url(), &curl_url_cleanup);
+  if (!action || curl_url_set(url.get(), CURLUPART_URL, page_url.c_str(), 0) != CURLUE_OK) {
+    return std::nullopt;
+  }
+  const auto host = part(url.get(), CURLUPART_HOST);
+  // Relative actions are resolved against the page.
+  if (curl_url_set(url.get(), CURLUPART_URL, action->c_str(), 0) != CURLUE_OK) return std::nullopt;
+  const auto form_host = part(url.get(), CURLUPART_HOST);
+  if (!host || !form_host || (*host != *form_host && !isGoogle(*form_host))) return std::nullopt;
+
+  for (std::size_t input = html.find("<input", form); input < end;
+       input = html.find("<input", input + 1)) {
+    const std::string tag = html.substr(input, html.find('>', input) - input);
+    const auto name = attribute(tag, "name");
+    const auto value = attribute(tag, "value");
+    if (name && value && !append(url.get(), *name, *value)) return std::nullopt;
+  }
+  return part(url.get(), CURLUPART_URL);
+}
+
+std::string pageTitle(const std::string& html) {
+  const std::size_t begin = html.find("<title>");
+  const std::size_t end = html.find("</title>");
+  if (begin == std::string::npos || end == std::string::npos || end < begin + 7) return "";
+  return html.substr(begin + 7, end - begin - 7);
+}
 
 void download(const Download& file, const DownloadPolicy& policy) {
   fs::create_directories(fs::absolute(file.destination).parent_path());

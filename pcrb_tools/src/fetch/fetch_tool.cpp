@@ -4,14 +4,11 @@
 #include <map>
 #include <set>
 
+#include "common/process.hpp"
 #include "common/progress.hpp"
-#include "common/run_child.hpp"
 #include "fetch/checksums.hpp"
-#include "fetch/content.hpp"
-#include "fetch/put_file.hpp"
+#include "fetch/published_files.hpp"
 #include "fetch/sources.hpp"
-#include "fetch/unpack.hpp"
-#include "fetch/wanted_sources.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 
@@ -26,7 +23,7 @@ class Fetch {
   Fetch(const FetchOptions& options, std::ostream& out)
       : options_(options),
         out_(out),
-        sources_(findWantedSources(options)),
+        sources_(selectSources(options.sources, options.set, options.sequences)),
         checksums_(options.logs + "/SHA256SUMS") {}
 
   bool run() {

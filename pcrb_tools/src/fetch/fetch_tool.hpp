@@ -5,16 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "common/sequence_paths.hpp"
 #include "fetch/download.hpp"
+#include "fetch/sources.hpp"
 
 namespace pcrb_tools {
-
-/// The original log of a sequence, as a converter takes it.
-struct SequenceLog {
-  std::string data_set;
-  std::string sequence;
-  std::vector<std::string> inputs;
-};
 
 /// What `fetch_datasets` is asked for.
 struct FetchOptions {
@@ -22,12 +17,12 @@ struct FetchOptions {
   std::string logs;                    ///< folder that downloads go to
   std::string root;                    ///< of the common layout
   std::string from;                    ///< folder of files that the user has; empty = none
-  std::vector<std::string> sequences;  ///< `<data set>` or `<data set>/<sequence>`; empty = all
-  bool original = false;               ///< original logs instead of the published files
-  bool dry_run = false;                ///< only say what would be done
-  bool force = false;                  ///< replace files of the layout that are something else
-  bool prepare = true;                 ///< convert and check what was fetched
-  int threads = 1;                     ///< of the check
+  std::vector<std::string> sequences;  ///< words of pcrb::namesSequence; empty = all
+  SourceSet set = SourceSet::kPublished;
+  bool dry_run = false;  ///< only say what would be done
+  bool force = false;    ///< replace files of the layout that are something else
+  bool prepare = true;   ///< convert and check what was fetched
+  int threads = 1;       ///< of the check
   /// Converts a log into the common layout; returns whether it succeeded.
   std::function<bool(const SequenceLog& log)> convert;
   /// Checks sequences of the common layout; returns whether it found no error.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "archives/archive_reader.hpp"
@@ -13,6 +14,7 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
+#include "pcrb_core/problem/dataset.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -155,8 +157,40 @@ class SourceReader {
   std::set<std::string> files_;
 };
 
+bool isNamed(const std::string& word, const Source& source) {
+  return pcrb::namesSequence(word, source.data_set, source.sequence);
+}
+
 }  // namespace
 
 std::vector<Source> readSources(const std::string& path) { return SourceReader(path).read(); }
+
+std::vector<Source> selectSources(const std::string& list, SourceSet set,
+                                  const std::vector<std::string>& words) {
+  std::vector<Source> all = readSources(list);
+  all.erase(std::remove_if(all.begin(), all.end(), [set](const Source& s) { return !s.isOf(set); }),
+            all.end());
+  for (const std::string& word : words) {
+    if (std::none_of(all.begin(), all.end(), [&](const Source& s) { return isNamed(word, s); })) {
+      throw pcrb::InvalidParameter(list + ": found no source of '" + word +
+                                   "', expected a sequence, <data set> or <data set>/<sequence>");
+    }
+  }
+  const auto is_wanted = [&words](const Source& source) {
+    return words.empty() || std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+             return isNamed(word, source);
+           });
+  };
+  std::set<std::string> needed;
+  for (const Source& source : all) {
+    if (is_wanted(source)) needed.insert(source.needs);
+  }
+  std::vector<Source> selected;
+  for (const Source& source : all) {
+    const bool is_needed = source.kind != SourceKind::kProblems && needed.count(source.name()) > 0;
+    if (is_needed || is_wanted(source)) selected.push_back(source);
+  }
+  return selected;
+}
 
 }  // namespace pcrb_tools

@@ -15,6 +15,12 @@ enum class SourceKind {
   kProblems  ///< published problem file
 };
 
+/// Which files of a sequence are wanted.
+enum class SourceSet {
+  kPublished,  ///< the clouds and problem files that were published
+  kOriginal    ///< the original logs
+};
+
 /// One file of the list of sources.
 struct Source {
   std::string data_set;
@@ -32,6 +38,10 @@ struct Source {
 
   /// `<data set>/<sequence>`.
   std::string name() const { return data_set + "/" + sequence; }
+
+  bool isOf(SourceSet set) const {
+    return set == SourceSet::kOriginal ? is_original : is_published;
+  }
 };
 
 /// Reads the list of sources (config/datasets.yaml explains its keys).
@@ -40,5 +50,14 @@ struct Source {
 /// @throws pcrb::InvalidFile  with file and line for unknown keys, wrong types, impossible values,
 ///                            needs that the list has not, and files that are named twice.
 std::vector<Source> readSources(const std::string& path);
+
+/// The files of a list to fetch for what is asked for, in the list's order: those of the wanted
+/// sequences, and the logs and clouds of the sequences that these need.
+///
+/// @param list   path of the list.
+/// @param words  as pcrb::namesSequence takes them; empty = all.
+/// @throws pcrb::Error  if the list is malformed or a wanted sequence is not in it.
+std::vector<Source> selectSources(const std::string& list, SourceSet set,
+                                  const std::vector<std::string>& words);
 
 }  // namespace pcrb_tools

@@ -17,8 +17,6 @@ namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
-using Outcome = TransferResult::Outcome;
-
 constexpr long kMaxRedirections = 10;
 
 /// The version of a file that a part is of: where it comes from and the server's mark of it.
@@ -76,22 +74,24 @@ TransferResult judge(const Response& response, std::uint64_t before) {
   if (!response.write_error.empty()) {
     result.what = response.write_error;
   } else if (response.is_other_range) {
-    result.outcome = Outcome::kRestart;
+    result.outcome = TransferResult::Outcome::kRestart;
     result.what = "the server sends another part of the file than was asked for";
   } else if (response.is_http && response.status == 416) {
     // A complete part has no rest: `bytes */SIZE` says so.
     const bool is_whole = response.content_range == "bytes */" + std::to_string(before);
-    result.outcome = is_whole ? Outcome::kComplete : Outcome::kRestart;
+    result.outcome =
+        is_whole ? TransferResult::Outcome::kComplete : TransferResult::Outcome::kRestart;
     result.what = "the server does not have the rest of the file";
   } else if (response.is_http && response.status >= 400) {
-    result.outcome = isTransientStatus(response.status) ? Outcome::kTransient : Outcome::kPermanent;
+    result.outcome = isTransientStatus(response.status) ? TransferResult::Outcome::kTransient
+                                                        : TransferResult::Outcome::kPermanent;
     result.what = "the server answers with status " + std::to_string(response.status);
   } else if (response.code == CURLE_OK) {
-    result.outcome = Outcome::kComplete;
+    result.outcome = TransferResult::Outcome::kComplete;
   } else if (isTransient(response.code)) {
-    result.outcome = Outcome::kTransient;
+    result.outcome = TransferResult::Outcome::kTransient;
   } else if (cannotResume(response.code) && before > 0) {
-    result.outcome = Outcome::kRestart;
+    result.outcome = TransferResult::Outcome::kRestart;
   }
   return result;
 }

@@ -5,9 +5,9 @@
 #include <iostream>
 #include <set>
 
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
-#include "common/provenance.hpp"
+#include "common/tool_main.hpp"
 #include "ground_truth/pair_evaluator.hpp"
 #include "ground_truth/sequence_accuracy.hpp"
 #include "pcrb_core/error.hpp"
@@ -74,40 +74,39 @@ class SequenceEvaluation {
         radius_(options.radius ? *options.radius
                                : pcrb::loadDataset(options.root, files.data_set).overlap_distance),
         pairs_(choosePairs(files.problem_file, options.max_pairs)),
-        output_(options.output + "/pairs/" + files.data_set + "_" + files.sequence + ".csv"),
-        provenance_("evaluate_ground_truth") {
-    provenance_.setParameter("radius", pcrb::formatShortest(radius_));
-    provenance_.setParameter("kind", toString(files.kind));
-    provenance_.setParameter("pairs", std::to_string(options.max_pairs));
-    provenance_.addInput(files.problem_file);
-    std::set<std::string> clouds;
-    for (const PairNames& pair : pairs_) clouds.insert({pair.source, pair.target});
-    for (const std::string& name : clouds) provenance_.addInput(files.cloud_folder + "/" + name);
-  }
+        output_(
+            describe(options.output + "/pairs/" + files.data_set + "_" + files.sequence + ".csv")),
+        partial_(describe(output_.path() + ".partial")) {}
 
   PairFile run() const {
-    if (provenance_.isUpToDate(output_)) {
-      std::cerr << output_ << ": complete and unchanged, kept" << std::endl;
-      return readPairFile(output_);
-    }
-    if (!options_.force) Provenance::requireReplaceable(output_);
+    if (isKept(output_, options_.force)) return readPairFile(output_.path());
     const PairFile file = evaluate();
-    provenance_.begin(output_);
-    pcrb::writeFileAtomically(output_, file.text);
-    provenance_.record(output_);
-    fs::remove(partial());
-    fs::remove(sideFile(partial()));
+    output_.begin();
+    pcrb::writeFileAtomically(output_.path(), file.text);
+    output_.record();
+    fs::remove(partial_.path());
+    fs::remove(pcrb::sideFile(partial_.path()));
     return file;
   }
 
  private:
-  std::string partial() const { return output_ + ".partial"; }
+  pcrb::DerivedFile describe(const std::string& path) const {
+    pcrb::DerivedFile file(path, "evaluate_ground_truth");
+    file.setParameter("radius", pcrb::formatShortest(radius_));
+    file.setParameter("kind", toString(files_.kind));
+    file.setParameter("pairs", std::to_string(options_.max_pairs));
+    file.addInput(files_.problem_file);
+    std::set<std::string> clouds;
+    for (const PairNames& pair : pairs_) clouds.insert({pair.source, pair.target});
+    for (const std::string& name : clouds) file.addInput(files_.cloud_folder + "/" + name);
+    return file;
+  }
 
   /// What an interrupted run has left of this, else no pair.
   PairFile resume() const {
-    if (provenance_.isBegun(partial())) return readPairFile(partial());
-    fs::remove(partial());
-    provenance_.begin(partial());
+    if (partial_.isBegun()) return readPairFile(partial_.path());
+    fs::remove(partial_.path());
+    partial_.begin();
     return emptyPairFile();
   }
 
@@ -119,7 +118,7 @@ class SequenceEvaluation {
     while (file.pairs() < pairs_.size()) {
       Interruption::check();
       evaluator.evaluate(pairs_[file.pairs()], file);
-      pcrb::writeFileAtomically(partial(), file.text);
+      pcrb::writeFileAtomically(partial_.path(), file.text);
       progress.add();
     }
     progress.finish();
@@ -130,8 +129,8 @@ class SequenceEvaluation {
   const GroundTruthOptions& options_;
   double radius_;  // m
   std::vector<PairNames> pairs_;
-  std::string output_;
-  Provenance provenance_;
+  pcrb::DerivedFile output_;
+  pcrb::DerivedFile partial_;  ///< grows pair by pair
 };
 
 SequenceAccuracy assess(const std::string& data_set, const std::string& sequence, PairFile pairs) {

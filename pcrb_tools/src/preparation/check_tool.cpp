@@ -1,15 +1,14 @@
-#include "preparation/check_tool.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/dataset_check.hpp"
+#include "preparation/preparation_tools.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -50,10 +49,10 @@ class Report {
   std::map<Severity, std::size_t> counts_;
 };
 
-bool isWanted(const std::vector<std::string>& wanted, const SequenceFiles& files) {
+bool isToBeChecked(const std::vector<std::string>& wanted, const SequenceFiles& files) {
   if (wanted.empty()) return true;
-  return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& name) {
-    return name == files.data_set || name == files.data_set + "/" + files.sequence;
+  return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& word) {
+    return pcrb::namesSequence(word, files.data_set, files.sequence);
   });
 }
 
@@ -65,13 +64,14 @@ std::vector<SequenceFiles> findWanted(const CheckOptions& options) {
   }
   for (const std::string& name : options.sequences) {
     if (std::none_of(found.begin(), found.end(),
-                     [&](const SequenceFiles& files) { return isWanted({name}, files); })) {
+                     [&](const SequenceFiles& files) { return isToBeChecked({name}, files); })) {
       throw pcrb::InvalidParameter("found no problem file of '" + name + "' below " + options.root);
     }
   }
-  found.erase(std::remove_if(
-                  found.begin(), found.end(),
-                  [&](const SequenceFiles& files) { return !isWanted(options.sequences, files); }),
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [&](const SequenceFiles& files) {
+                               return !isToBeChecked(options.sequences, files);
+                             }),
               found.end());
   return found;
 }
@@ -152,7 +152,9 @@ void checkFile(const SequenceFiles& files, const CheckOptions& options, FolderCa
 bool runCheckTool(const CheckOptions& options, std::ostream& out) {
   const std::vector<SequenceFiles> wanted = findWanted(options);
   Report report(out);
-  if (options.sequences.empty()) report.add(checkLayout(options.root, wanted));
+  const bool is_all = options.sequences.empty() ||
+                      std::count(options.sequences.begin(), options.sequences.end(), "all") > 0;
+  if (is_all) report.add(checkLayout(options.root, wanted));
   FolderCache folders(report, options.threads);
   for (const SequenceFiles& files : wanted) checkFile(files, options, folders, report);
   report.printSummary(wanted.size(), folders.clouds());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "archives/archive_reader.hpp"
+#include "archives/bag_messages.hpp"
 #include "pcrb_core/datasets/eth.hpp"
 #include "pcrb_core/datasets/kaist.hpp"
 #include "pcrb_core/datasets/tum.hpp"
@@ -18,8 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Inputs = std::vector<std::string>;
 using ByName = std::map<std::string, Inputs>;
-
-bool isBag(const fs::path& path) { return path.extension() == ".bag"; }
 
 /// File name without the ending of an archive or a bag.
 std::string stemOf(const fs::path& path) {
@@ -38,7 +37,7 @@ std::vector<fs::path> candidates(const fs::path& folder) {
   if (!fs::is_directory(folder)) return paths;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    const bool is_log = entry.is_directory() || isArchiveName(name) || isBag(entry.path());
+    const bool is_log = entry.is_directory() || isArchiveName(name) || isBag(entry.path().string());
     if (is_log && name[0] != '.') paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end(),
@@ -86,9 +85,9 @@ Inputs withoutBags(const Inputs& inputs) {
 
 }  // namespace
 
-std::vector<LogSequence> findLogs(const std::string& logs) {
+std::vector<SequenceLog> findLogs(const std::string& logs) {
   const auto in = [&logs](const char* data_set) { return candidates(fs::path(logs) / data_set); };
-  std::vector<LogSequence> sequences;
+  std::vector<SequenceLog> sequences;
   const auto add = [&sequences](const char* data_set, const ByName& groups, auto choose) {
     for (const auto& [name, inputs] : groups) {
       sequences.push_back({data_set, name, choose(inputs)});

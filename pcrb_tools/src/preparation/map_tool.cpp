@@ -1,27 +1,26 @@
-#include "preparation/map_tool.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
-#include "common/provenance.hpp"
-#include "common/sequence_folder.hpp"
+#include "common/sequence_paths.hpp"
+#include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/parallel.hpp"
 #include "pcrb_core/search/voxel_map.hpp"
+#include "preparation/preparation_tools.hpp"
 
 namespace pcrb_tools {
 namespace {
 
-Provenance makeProvenance(const SequenceFolder& folder, double leaf) {
-  Provenance provenance("build_map");
-  provenance.setParameter("leaf", pcrb::formatShortest(leaf));
-  for (const std::string& name : folder.clouds) provenance.addInput(folder.cloud(name));
-  return provenance;
+pcrb::DerivedFile describeMap(const std::string& path, const SequenceFolder& folder, double leaf) {
+  pcrb::DerivedFile map(path, "build_map");
+  map.setParameter("leaf", pcrb::formatShortest(leaf));
+  for (const std::string& name : folder.clouds) map.addInput(folder.cloud(name));
+  return map;
 }
 
 /// Clouds are read a few at a time in parallel and added in the sequence's order.
@@ -61,17 +60,13 @@ void runMapTool(const MapOptions& options) {
   leaveOutOutput(folder, options.output);
   const double leaf =
       options.leaf ? *options.leaf : pcrb::loadDataset(folder.root, folder.data_set).voxel_leaf;
-  const Provenance provenance = makeProvenance(folder, leaf);
-  if (provenance.isUpToDate(options.output)) {
-    std::cerr << options.output << ": complete and unchanged, kept" << std::endl;
-    return;
-  }
-  if (!options.force) Provenance::requireReplaceable(options.output);
+  const pcrb::DerivedFile output = describeMap(options.output, folder, leaf);
+  if (isKept(output, options.force)) return;
   const pcrb::VoxelMap map = mergeClouds(folder, leaf, options.threads);
   if (map.size() == 0) throw pcrb::InvalidProblem(folder.path + ": the clouds have no points");
-  provenance.begin(options.output);
+  output.begin();
   writePcd(options.output, map.cloud());
-  provenance.record(options.output);
+  output.record();
   std::cerr << options.output << ": " << map.size() << " points from " << folder.clouds.size()
             << " clouds" << std::endl;
 }

@@ -1,19 +1,18 @@
-#include "preparation/overlap_tool.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <numeric>
 
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
-#include "common/provenance.hpp"
-#include "common/sequence_folder.hpp"
+#include "common/sequence_paths.hpp"
+#include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/overlap.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
 #include "preparation/overlap_journal.hpp"
+#include "preparation/preparation_tools.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -42,17 +41,18 @@ pcrb::OverlapJob makeJob(const SequenceFolder& folder, const OverlapOptions& opt
   return job;
 }
 
-Provenance makeProvenance(const SequenceFolder& folder, const pcrb::OverlapJob& job) {
-  Provenance provenance("compute_overlap");
-  provenance.setParameter("distance", pcrb::formatShortest(job.distance));
-  provenance.setParameter("window", std::to_string(job.window));
+pcrb::DerivedFile describeMatrix(const std::string& path, const SequenceFolder& folder,
+                                 const pcrb::OverlapJob& job) {
+  pcrb::DerivedFile matrix(path, "compute_overlap");
+  matrix.setParameter("distance", pcrb::formatShortest(job.distance));
+  matrix.setParameter("window", std::to_string(job.window));
   std::string targets;
   if (job.targets.size() < job.files.size()) {
     for (const std::size_t target : job.targets) targets += folder.clouds[target] + " ";
   }
-  provenance.setParameter("targets", targets.empty() ? "all" : targets);
-  for (const std::string& file : job.files) provenance.addInput(file);
-  return provenance;
+  matrix.setParameter("targets", targets.empty() ? "all" : targets);
+  for (const std::string& file : job.files) matrix.addInput(file);
+  return matrix;
 }
 
 void setColumn(pcrb::OverlapMatrix& matrix, std::size_t target, const std::vector<double>& column) {
@@ -94,22 +94,20 @@ pcrb::OverlapMatrix computeMatrix(const SequenceFolder& folder, pcrb::OverlapJob
 void runOverlapTool(const OverlapOptions& options) {
   SequenceFolder folder = openSequenceFolder(options.folder);
   exclude(folder, options.excluded);
-  const std::string output =
+  const std::string path =
       options.output.empty() ? folder.sibling(folder.sequence + "_overlap.txt") : options.output;
   const pcrb::OverlapJob job = makeJob(folder, options);
-  const Provenance provenance = makeProvenance(folder, job);
-  const std::string journal_path = output + ".partial";
-  if (provenance.isUpToDate(output)) {
+  const pcrb::DerivedFile output = describeMatrix(path, folder, job);
+  const std::string journal_path = path + ".partial";
+  if (isKept(output, options.force)) {
     std::filesystem::remove(journal_path);  // a kill may have come before its end
-    std::cerr << output << ": complete and unchanged, kept" << std::endl;
     return;
   }
-  if (!options.force) Provenance::requireReplaceable(output);
-  OverlapJournal journal(journal_path, provenance.text(), folder.clouds.size());
+  OverlapJournal journal(journal_path, output.text(), folder.clouds.size());
   const pcrb::OverlapMatrix matrix = computeMatrix(folder, job, journal);
-  provenance.begin(output);
-  writeOverlapMatrix(output, matrix);
-  provenance.record(output);
+  output.begin();
+  writeOverlapMatrix(path, matrix);
+  output.record();
   journal.remove();
 }
 

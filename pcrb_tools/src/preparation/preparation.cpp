@@ -1,24 +1,19 @@
 #include "preparation/preparation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <utility>
 
-#include "common/interruption.hpp"
-#include "common/provenance.hpp"
-#include "conversion/eth_conversion.hpp"
-#include "conversion/kaist_conversion.hpp"
-#include "conversion/planetary_conversion.hpp"
-#include "conversion/tum_conversion.hpp"
+#include "common/process.hpp"
+#include "conversion/converters.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/dataset.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
-#include "preparation/check_tool.hpp"
-#include "preparation/map_tool.hpp"
-#include "preparation/overlap_tool.hpp"
-#include "preparation/sampling_tool.hpp"
+#include "preparation/preparation_tools.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -31,7 +26,7 @@ constexpr const char* kMapTarget = "p2at_met";  ///< sequence that is registered
 constexpr const char* kMapProblems = "planetary_map";
 
 template <typename Request>
-Request makeRequest(const LogSequence& log, const PrepareOptions& options) {
+Request makeRequest(const SequenceLog& log, const PrepareOptions& options) {
   Request request;
   request.inputs = log.inputs;
   request.root = options.root;
@@ -41,7 +36,7 @@ Request makeRequest(const LogSequence& log, const PrepareOptions& options) {
   return request;
 }
 
-ConversionReport convertLog(const LogSequence& log, const PrepareOptions& options) {
+ConversionReport convertLog(const SequenceLog& log, const PrepareOptions& options) {
   if (log.data_set == "eth") return convertEth(makeRequest<EthRequest>(log, options));
   if (log.data_set == "tum") return convertTum(makeRequest<TumRequest>(log, options));
   if (log.data_set == "planetary") {
@@ -53,8 +48,8 @@ ConversionReport convertLog(const LogSequence& log, const PrepareOptions& option
 }
 
 /// Whether to leave a file alone because somebody else made it, e.g. a published one.
-bool isForeign(const std::string& file, std::ostream& out) {
-  if (!fs::exists(file) || fs::exists(sideFile(file))) return false;
+bool isLeftAlone(const std::string& file, std::ostream& out) {
+  if (!pcrb::isForeign(file)) return false;
   out << "kept, as it was there before: " << file << std::endl;
   return true;
 }
@@ -62,7 +57,7 @@ bool isForeign(const std::string& file, std::ostream& out) {
 /// A preparation under way.
 class Preparation {
  public:
-  Preparation(const PrepareOptions& options, std::vector<LogSequence> logs, std::ostream& out)
+  Preparation(const PrepareOptions& options, std::vector<SequenceLog> logs, std::ostream& out)
       : options_(options), logs_(std::move(logs)), out_(out) {}
 
   /// Whether nothing is wrong with what a stage made.
@@ -79,7 +74,7 @@ class Preparation {
     return (fs::path(options_.root) / data_set / sequence).string();
   }
 
-  std::string folder(const LogSequence& log) const { return folder(log.data_set, log.sequence); }
+  std::string folder(const SequenceLog& log) const { return folder(log.data_set, log.sequence); }
 
   bool has(const char* sequence) const {
     return std::any_of(logs_.begin(), logs_.end(), [sequence](const auto& log) {
@@ -109,7 +104,7 @@ class Preparation {
     }
   }
 
-  ConversionReport convert(const LogSequence& log) const {
+  ConversionReport convert(const SequenceLog& log) const {
     try {
       return convertLog(log, options_);
     } catch (const pcrb::InvalidFile& error) {
@@ -121,7 +116,7 @@ class Preparation {
   }
 
   void buildMap() {
-    if (!has(kMapTarget) || isForeign(mapFile(), out_)) return;
+    if (!has(kMapTarget) || isLeftAlone(mapFile(), out_)) return;
     if (!has(kMapSource)) {
       out_ << "no map is built: it needs the log of " << kMapSource << std::endl;
       return;
@@ -154,7 +149,7 @@ class Preparation {
 
   void computeOverlap(OverlapOptions& overlap) {
     overlap.threads = options_.threads;
-    if (!isForeign(overlap.output, out_)) runOverlapTool(overlap);
+    if (!isLeftAlone(overlap.output, out_)) runOverlapTool(overlap);
   }
 
   void sampleProblems() {
@@ -182,7 +177,7 @@ class Preparation {
     for (const auto kind : {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}) {
       const fs::path file = fs::path(sampling.folder).parent_path() /
                             (sampling.sequence + '_' + pcrb::toString(kind) + ".txt");
-      if (!isForeign(file.string(), out_)) sampling.kinds.push_back(kind);
+      if (!isLeftAlone(file.string(), out_)) sampling.kinds.push_back(kind);
     }
     if (!sampling.kinds.empty()) runSamplingTool(sampling);
   }
@@ -198,17 +193,17 @@ class Preparation {
   }
 
   const PrepareOptions& options_;
-  std::vector<LogSequence> logs_;
+  std::vector<SequenceLog> logs_;
   std::ostream& out_;
 };
 
-bool isWanted(const std::string& wanted, const LogSequence& log) {
+bool isWanted(const std::string& wanted, const SequenceLog& log) {
   return pcrb::namesSequence(wanted, {log.data_set, log.sequence});
 }
 
 /// The logs of the sequences that are asked for, each of which must be there.
-std::vector<LogSequence> selectLogs(const PrepareOptions& options) {
-  const std::vector<LogSequence> logs = findLogs(options.logs);
+std::vector<SequenceLog> selectLogs(const PrepareOptions& options) {
+  const std::vector<SequenceLog> logs = findLogs(options.logs);
   if (options.sequences.empty()) return logs;
   for (const auto& wanted : options.sequences) {
     if (std::none_of(logs.begin(), logs.end(),
@@ -217,7 +212,7 @@ std::vector<LogSequence> selectLogs(const PrepareOptions& options) {
                                    ", expected data sets, sequences, or <data set>/<sequence>");
     }
   }
-  std::vector<LogSequence> selected;
+  std::vector<SequenceLog> selected;
   std::copy_if(logs.begin(), logs.end(), std::back_inserter(selected), [&](const auto& log) {
     return std::any_of(options.sequences.begin(), options.sequences.end(),
                        [&log](const auto& wanted) { return isWanted(wanted, log); });
@@ -228,19 +223,8 @@ std::vector<LogSequence> selectLogs(const PrepareOptions& options) {
 }  // namespace
 
 const char* toString(PrepareStage stage) {
-  switch (stage) {
-    case PrepareStage::kConvert:
-      return "convert";
-    case PrepareStage::kMap:
-      return "map";
-    case PrepareStage::kOverlap:
-      return "overlap";
-    case PrepareStage::kProblems:
-      return "problems";
-    case PrepareStage::kCheck:
-      return "check";
-  }
-  return "unknown";
+  constexpr std::array kNames{"convert", "map", "overlap", "problems", "check"};
+  return kNames.at(static_cast<std::size_t>(stage));
 }
 
 bool prepareDataset(const PrepareOptions& options, std::ostream& out) {

@@ -5,16 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "common/sequence_paths.hpp"
 #include "pcrb_core/problem/dataset.hpp"
 
 namespace pcrb_tools {
-
-/// The original log of a sequence.
-struct LogSequence {
-  std::string data_set;  ///< eth, planetary, tum or kaist
-  std::string sequence;
-  std::vector<std::string> inputs;  ///< folders, archives and bags for the data set's converter
-};
 
 /// The logs below `<logs>/{eth,planetary,tum,kaist}`, each by the name of its folder, archive or
 /// bag, sorted.
@@ -22,7 +16,7 @@ struct LogSequence {
 /// Of a TUM sequence the bag with clouds is taken if there is one, else the raw bag, else the
 /// archive or folder with PNGs; a KAIST sequence is all that is named after it, its bags apart.
 /// @throws InvalidFile  if there is no log.
-std::vector<LogSequence> findLogs(const std::string& logs);
+std::vector<SequenceLog> findLogs(const std::string& logs);
 
 /// The stages of a preparation, in their order.
 enum class PrepareStage { kConvert, kMap, kOverlap, kProblems, kCheck };

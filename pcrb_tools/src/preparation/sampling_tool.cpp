@@ -1,15 +1,13 @@
-#include "preparation/sampling_tool.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
 #include <set>
 
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
-#include "common/provenance.hpp"
-#include "common/sequence_folder.hpp"
+#include "common/sequence_paths.hpp"
+#include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
@@ -18,6 +16,7 @@
 #include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
+#include "preparation/preparation_tools.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -85,39 +84,34 @@ class Sampling {
   }
 
   void makeList(pcrb::Kind kind) {
-    const std::string output =
-        folder_.sibling(sequence() + "_" + std::string(toString(kind)) + ".txt");
-    const Provenance provenance = makeProvenance(kind);
-    if (provenance.isUpToDate(output)) {
-      std::cerr << output << ": complete and unchanged, kept" << std::endl;
-      return;
-    }
-    if (!options_.force) Provenance::requireReplaceable(output);
+    const pcrb::DerivedFile output = describeList(kind);
+    if (isKept(output, options_.force)) return;
     const pcrb::ProblemList list{sequence(), kind, drawPairs(kind), dataset_.bounds(kind)};
     centroids_.read(list.pairs);
-    provenance.begin(output);
-    writeProblemFile(output, sampleProblems(list, options_.seed, centroids_));
-    provenance.record(output);
-    report(output, list);
+    output.begin();
+    writeProblemFile(output.path(), sampleProblems(list, options_.seed, centroids_));
+    output.record();
+    report(output.path(), list);
   }
 
-  Provenance makeProvenance(pcrb::Kind kind) const {
+  pcrb::DerivedFile describeList(pcrb::Kind kind) const {
     const auto range = [](const pcrb::Range& r) {
       return pcrb::formatShortest(r.min) + " " + pcrb::formatShortest(r.max);
     };
-    Provenance provenance("sample_problems");
-    provenance.setParameter("seed", std::to_string(options_.seed));
-    provenance.setParameter("sequence", sequence());
-    provenance.setParameter("kind", toString(kind));
-    provenance.setParameter("translation_m", range(dataset_.bounds(kind).translation));
-    provenance.setParameter("rotation_deg", range(dataset_.bounds(kind).rotation_deg));
-    provenance.setParameter("map", options_.map);
+    pcrb::DerivedFile file(folder_.sibling(sequence() + "_" + std::string(toString(kind)) + ".txt"),
+                           "sample_problems");
+    file.setParameter("seed", std::to_string(options_.seed));
+    file.setParameter("sequence", sequence());
+    file.setParameter("kind", toString(kind));
+    file.setParameter("translation_m", range(dataset_.bounds(kind).translation));
+    file.setParameter("rotation_deg", range(dataset_.bounds(kind).rotation_deg));
+    file.setParameter("map", options_.map);
     std::string excluded;
     for (const std::string& name : options_.excluded) excluded += name + " ";
-    provenance.setParameter("excluded", excluded);
-    provenance.addInput(matrix_path_);
-    for (const std::string& name : matrix_.names) provenance.addInput(folder_.cloud(name));
-    return provenance;
+    file.setParameter("excluded", excluded);
+    file.addInput(matrix_path_);
+    for (const std::string& name : matrix_.names) file.addInput(folder_.cloud(name));
+    return file;
   }
 
   /// A map that is not asked for is no scan.

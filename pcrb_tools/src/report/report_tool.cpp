@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/run_child.hpp"
+#include "common/process.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb_tools {

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "bags/problem_key.hpp"
-#include "common/problem_file_path.hpp"
 #include "common/progress.hpp"
+#include "common/sequence_paths.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/problem/problem.hpp"

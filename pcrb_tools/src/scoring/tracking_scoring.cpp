@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/interruption.hpp"
+#include "common/process.hpp"
 #include "common/progress.hpp"
-#include "common/sequence_folder.hpp"
+#include "common/sequence_paths.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/evaluation/trajectory_error.hpp"

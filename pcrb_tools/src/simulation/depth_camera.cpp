@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMinDepth = 0.5;         // m
-constexpr double kMaxDepth = 5.0;         // m
+constexpr double kFarthestDepth = 5.0;    // m
 constexpr double kSight = 50.0;           // m, of the colour camera
 constexpr double kBaseline = 0.075;       // m, projector to infrared camera
 constexpr double kInfraredFocal = 580.0;  // pixels
@@ -52,7 +52,7 @@ float depthOf(const Scene::Snapshot& scene, const Ray& ray, const Hit& hit, doub
   const double strength = hit.surface.reflectivity * std::abs(hit.normal.dot(ray.direction));
   const bool lost = random.uniform() < kLostShare;
   const double measured = measuredDepth(depth, random);
-  if (lost || depth < kMinDepth || depth > kMaxDepth || strength < kWeakestReturn ||
+  if (lost || depth < kMinDepth || depth > kFarthestDepth || strength < kWeakestReturn ||
       !isLit(scene, ray.origin + hit.distance * ray.direction, hit.normal, projector)) {
     return std::numeric_limits<float>::quiet_NaN();
   }

@@ -4,11 +4,10 @@
 #include <vector>
 
 #include "pcrb_core/io/number.hpp"
-#include "simulation/log_plan.hpp"
 #include "simulation/noise.hpp"
 #include "simulation/props.hpp"
+#include "simulation/sample_logs.hpp"
 #include "simulation/scanner.hpp"
-#include "simulation/scenes.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {
@@ -36,10 +35,10 @@ struct EthSequence {
   CsvStyle local_style;
 };
 
-constexpr double kScanInterval = 40.0;  // s, from stop to stop
+constexpr double kEthInterval = 40.0;  // s, from stop to stop
 constexpr int kCoordinateDecimals = 8;
 
-std::vector<EthSequence> sequences() {
+std::vector<EthSequence> ethPlans() {
   std::vector<EthSequence> list;
   list.push_back({"apartment",
                   describeApartment,
@@ -105,10 +104,10 @@ void appendPoint(std::string& text, const CsvStyle& style, const ScanPoint& poin
   text += style.line_end;
 }
 
-void makeScan(const EthSequence& sequence, const LazyScene& scene, const LogOptions& options, int i,
-              const std::string& output, const std::vector<std::string>& files) {
+void makeEthScan(const EthSequence& sequence, const LazyScene& scene, const LogOptions& options,
+                 int i, const std::string& output, const std::vector<std::string>& files) {
   const pcrb::Transform truth = scannerPose(sequence, scene.get(), i, options);
-  const double start = kScanInterval * i;
+  const double start = kEthInterval * i;
   pcrb::Random random = makeStream(options.seed, sequence.name, static_cast<std::uint64_t>(i));
   const auto points =
       takeScan(scene.get(), makeTiltingHokuyo(options.size.eth_lines, options.size.eth_beams),
@@ -134,7 +133,7 @@ void makePoses(const EthSequence& sequence, const LazyScene& scene, const LogOpt
       "T32, T33\n";
   const PoseError pose_error(options.seed, options.ground_truth_error);
   for (int i = 0; i < options.size.eth_scans; ++i) {
-    const double start = kScanInterval * i;
+    const double start = kEthInterval * i;
     const pcrb::Transform pose =
         displaced(scannerPose(sequence, scene.get(), i, options), pose_error.at(start));
     text += std::to_string(i) + ", " + pcrb::formatFixed(sequence.clock + start, 6);
@@ -161,10 +160,10 @@ void planSequence(const EthSequence& sequence, const LogOptions& options, LogPla
     const std::vector<std::string> files{folder + "csv_global/" + numbered("PointCloud", i, ".csv"),
                                          folder + "csv_local/" + numbered("Hokuyo_", i, ".csv")};
     plan.jobs.push_back({files, [=](const std::string& output) {
-                           makeScan(sequence, scene, options, i, output, files);
+                           makeEthScan(sequence, scene, options, i, output, files);
                          }});
-    plan.errors.push_back({"eth", sequence.name, numbered("PointCloud", i, ".pcd"),
-                           pose_error.at(kScanInterval * i)});
+    plan.errors.push_back(
+        {"eth", sequence.name, numbered("PointCloud", i, ".pcd"), pose_error.at(kEthInterval * i)});
   }
   const std::string poses = folder + sequence.pose_folder + "/pose_scanner_leica.csv";
   plan.jobs.push_back({{poses}, [=](const std::string& output) {
@@ -176,7 +175,7 @@ void planSequence(const EthSequence& sequence, const LogOptions& options, LogPla
 
 LogPlan planEthLogs(const LogOptions& options) {
   LogPlan plan;
-  for (const EthSequence& sequence : sequences()) planSequence(sequence, options, plan);
+  for (const EthSequence& sequence : ethPlans()) planSequence(sequence, options, plan);
   return plan;
 }
 

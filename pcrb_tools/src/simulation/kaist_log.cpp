@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "pcrb_core/io/number.hpp"
-#include "simulation/log_plan.hpp"
 #include "simulation/noise.hpp"
 #include "simulation/props.hpp"
+#include "simulation/sample_logs.hpp"
 #include "simulation/scanner.hpp"
-#include "simulation/scenes.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {
@@ -72,7 +71,7 @@ pcrb::Transform streetFromVehicle(double time) {
 }
 
 /// Time of the end of a revolution, which is the scan's stamp: the sensor's clock is not perfect.
-std::int64_t stampNs(const Velodyne& velodyne, int scan, std::uint64_t seed) {
+std::int64_t velodyneStamp(const Velodyne& velodyne, int scan, std::uint64_t seed) {
   pcrb::Random random =
       makeStream(seed, "urban05 stamp " + velodyne.name, static_cast<std::uint64_t>(scan));
   const double end = velodyne.phase + kRevolution * (scan + 1);
@@ -100,15 +99,16 @@ std::string recordBytes(const std::vector<ScanPoint>& points, pcrb::Random& rand
   return bytes;
 }
 
-void makeScan(const Velodyne& velodyne, const LazyScene& scene, const LogOptions& options, int i,
-              const std::string& output, const std::string& file) {
+void makeKaistScan(const Velodyne& velodyne, const LazyScene& scene, const LogOptions& options,
+                   int i, const std::string& output, const std::string& file) {
   pcrb::Transform T_vehicle_sensor = pcrb::Transform::Identity();
   T_vehicle_sensor.linear() = rotationOf(velodyne.rpy_deg);
   T_vehicle_sensor.translation() = velodyne.position;
   const auto pose = [&T_vehicle_sensor](double time) -> pcrb::Transform {
     return streetFromVehicle(time) * T_vehicle_sensor;
   };
-  const double end = static_cast<double>(stampNs(velodyne, i, options.seed) - kClockNs) * 1e-9;
+  const double end =
+      static_cast<double>(velodyneStamp(velodyne, i, options.seed) - kClockNs) * 1e-9;
   pcrb::Random random =
       makeStream(options.seed, "urban05 " + velodyne.name, static_cast<std::uint64_t>(i));
   const auto points =
@@ -119,7 +119,7 @@ void makeScan(const Velodyne& velodyne, const LazyScene& scene, const LogOptions
 std::string stampsText(const Velodyne& velodyne, const LogOptions& options) {
   std::string text;
   for (int i = 0; i < options.size.kaist_scans; ++i) {
-    text += std::to_string(stampNs(velodyne, i, options.seed)) + "\n";
+    text += std::to_string(velodyneStamp(velodyne, i, options.seed)) + "\n";
   }
   return text;
 }
@@ -175,10 +175,10 @@ LogPlan planKaistLogs(const LogOptions& options) {
   for (const Velodyne& velodyne : velodynes()) {
     for (int i = 0; i < options.size.kaist_scans; ++i) {
       if (std::count(velodyne.missing.begin(), velodyne.missing.end(), i) > 0) continue;
-      const std::int64_t stamp = stampNs(velodyne, i, options.seed);
+      const std::int64_t stamp = velodyneStamp(velodyne, i, options.seed);
       const std::string file = scanFile(velodyne, stamp);
       plan.jobs.push_back({{file}, [=](const std::string& output) {
-                             makeScan(velodyne, scene, options, i, output, file);
+                             makeKaistScan(velodyne, scene, options, i, output, file);
                            }});
       if (velodyne.name != "left") continue;
       plan.errors.push_back({"kaist", "urban05", "urban05_" + std::to_string(stamp) + ".pcd",

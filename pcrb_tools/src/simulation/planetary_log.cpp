@@ -3,11 +3,10 @@
 #include <vector>
 
 #include "pcrb_core/io/number.hpp"
-#include "simulation/log_plan.hpp"
 #include "simulation/noise.hpp"
 #include "simulation/props.hpp"
+#include "simulation/sample_logs.hpp"
 #include "simulation/scanner.hpp"
-#include "simulation/scenes.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {
@@ -22,10 +21,10 @@ struct PlanetarySequence {
   std::string last_line;       ///< of the .gt files
 };
 
-constexpr double kScanInterval = 90.0;  // s, from stop to stop
+constexpr double kPlanetaryInterval = 90.0;  // s, from stop to stop
 constexpr int kDecimals = 6;
 
-std::vector<PlanetarySequence> sequences() {
+std::vector<PlanetarySequence> planetaryPlans() {
   return {{"box_met",
            makePanningSick,
            {{-4.0, 0.0, 1.6},
@@ -92,11 +91,12 @@ std::string poseText(const pcrb::Transform& pose) {
   return text;
 }
 
-void makeScan(const PlanetarySequence& sequence, const LazyScene& scene, const LogOptions& options,
-              int i, const std::string& output, const std::vector<std::string>& files) {
+void makePlanetaryScan(const PlanetarySequence& sequence, const LazyScene& scene,
+                       const LogOptions& options, int i, const std::string& output,
+                       const std::vector<std::string>& files) {
   const LogSize& size = options.size;
   const pcrb::Transform truth = sensorPose(sequence, scene.get(), i, options);
-  const double start = kScanInterval * i;
+  const double start = kPlanetaryInterval * i;
   pcrb::Random random = makeStream(options.seed, sequence.name, static_cast<std::uint64_t>(i));
   const auto points =
       takeScan(scene.get(), sequence.scanner(size.planetary_lines, size.planetary_beams),
@@ -123,16 +123,16 @@ LogPlan planPlanetaryLogs(const LogOptions& options) {
   LogPlan plan;
   const LazyScene scene = lazyScene(describeSandYard, options.seed);
   const PoseError pose_error(options.seed, options.ground_truth_error);
-  for (const PlanetarySequence& sequence : sequences()) {
+  for (const PlanetarySequence& sequence : planetaryPlans()) {
     for (int i = 0; i < options.size.planetary_scans; ++i) {
       const std::string name = scanName(sequence.name, i);
       const std::string path = scanPath(sequence.name, name);
       const std::vector<std::string> files{path + ".xyz", path + ".gt"};
       plan.jobs.push_back({files, [=](const std::string& output) {
-                             makeScan(sequence, scene, options, i, output, files);
+                             makePlanetaryScan(sequence, scene, options, i, output, files);
                            }});
       plan.errors.push_back(
-          {"planetary", sequence.name, name + ".pcd", pose_error.at(kScanInterval * i)});
+          {"planetary", sequence.name, name + ".pcd", pose_error.at(kPlanetaryInterval * i)});
     }
   }
   return plan;

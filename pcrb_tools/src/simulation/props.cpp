@@ -54,7 +54,6 @@ Motion walkBetween(const Vector3d& a, const Vector3d& b, double speed, double st
   const double leg = (b - a).norm() / speed;
   const double yaw = std::atan2(b.y() - a.y(), b.x() - a.x());
   return [a, b, leg, yaw, start_time](double time) {
-    constexpr double kPi = 3.141592653589793;
     const double legs = (time + start_time) / leg;
     const double number = std::floor(legs);
     const bool back = std::fmod(number, 2.0) != 0.0;

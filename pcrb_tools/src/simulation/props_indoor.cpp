@@ -10,8 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.141592653589793;
-
 /// Four legs below a plate of a size, `inset` from its edges.
 void addLegs(Prop& prop, double length, double width, double height, double inset, double radius,
              const Surface& surface) {

@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.141592653589793;
-
 /// Clumps of leaves at random places of an ellipsoid, denser to its outside, where light is.
 void addLeaves(Prop& prop, const Vector3d& center, const Vector3d& radii, int clumps,
                const Surface& leaf, pcrb::Random& random) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -10,8 +11,11 @@
 
 #include "common/progress.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
+#include "simulation/noise.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {
@@ -31,35 +35,14 @@ const std::map<std::string, Planner>& planners() {
   return by_data_set;
 }
 
-std::string settingsText(const SampleLogsRequest& request) {
-  return "# Simulated by make_sample_logs: these logs are of no real sensor.\nseed " +
-         std::to_string(request.seed) + "\nsize " + request.size + "\nground_truth_error " +
-         pcrb::formatShortest(request.ground_truth_error) + "\n";
-}
-
-/// Claims the output folder: a new or empty one, or one with logs of the same settings.
-void claimFolder(const SampleLogsRequest& request) {
-  const std::string settings = settingsText(request);
-  const fs::path folder = request.output;
-  if (fs::exists(folder) && !fs::is_directory(folder)) {
-    throw pcrb::InvalidParameter("--output " + request.output +
-                                 ": found a file, expected a folder");
-  }
-  if (fs::exists(folder / kSettingsFile)) {
-    std::ifstream file(folder / kSettingsFile, std::ios::binary);
-    const std::string found((std::istreambuf_iterator<char>(file)),
-                            std::istreambuf_iterator<char>());
-    if (found == settings) return;
-    throw pcrb::InvalidParameter(request.output +
-                                 ": has sample logs of another seed, size or error (see " +
-                                 kSettingsFile + "): remove it or choose another --output");
-  }
-  if (fs::exists(folder) && !fs::is_empty(folder)) {
-    throw pcrb::InvalidParameter(request.output +
-                                 ": found a folder with other contents, expected a " +
-                                 "new or empty one: simulated logs must not mix with real ones");
-  }
-  writeLogFile(request.output, kSettingsFile, settings);
+/// Claims the output folder: a new or empty one, or one with logs of the same settings; simulated
+/// logs must not mix with real ones.
+void claimFor(const SampleLogsRequest& request) {
+  pcrb::claimFolder(request.output, kSettingsFile,
+                    {"# Simulated by make_sample_logs: these logs are of no real sensor.",
+                     "seed " + std::to_string(request.seed), "size " + request.size,
+                     "ground_truth_error " + pcrb::formatShortest(request.ground_truth_error)},
+                    pcrb::OtherFiles::kRefused);
 }
 
 std::string errorsText(const std::vector<KnownError>& errors) {
@@ -87,6 +70,59 @@ void append(LogPlan& all, LogPlan plan) {
 
 }  // namespace
 
+using Eigen::Vector3d;
+
+LazyScene lazyScene(SceneDescription (*describe)(std::uint64_t), std::uint64_t seed) {
+  return std::async(std::launch::deferred, [describe, seed] { return Scene(describe(seed)); })
+      .share();
+}
+
+PoseError::PoseError(std::uint64_t seed, double length) : length_(length) {
+  pcrb::Random random = makeStream(seed, "ground truth error");
+  azimuth_ = random.uniform(0.0, 6.28);
+  elevation_ = random.uniform(0.0, 6.28);
+}
+
+Vector3d PoseError::at(double time) const {
+  const double azimuth = azimuth_ + 1.3 * time;
+  const double elevation = std::sin(elevation_ + 0.93 * time);
+  return length_ * Vector3d(std::cos(elevation) * std::cos(azimuth),
+                            std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+}
+
+pcrb::Transform displaced(const pcrb::Transform& T_world_sensor, const Vector3d& error) {
+  return Eigen::Translation3d(error) * T_world_sensor;
+}
+
+PathPoint followPath(const std::vector<Vector3d>& corners, double arc_length) {
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const Vector3d leg = corners[i + 1] - corners[i];
+    if (arc_length <= leg.norm() || i + 2 == corners.size()) {
+      const double share = std::clamp(arc_length / leg.norm(), 0.0, 1.0);
+      return {corners[i] + share * leg, std::atan2(leg.y(), leg.x())};
+    }
+    arc_length -= leg.norm();
+  }
+  return {corners.front(), 0.0};
+}
+
+double pathLength(const std::vector<Vector3d>& corners) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+    length += (corners[i + 1] - corners[i]).norm();
+  return length;
+}
+
+double stopAt(int i, int count, const std::vector<Vector3d>& corners, double spacing) {
+  return i * std::min(spacing, pathLength(corners) / std::max(1, count - 1));
+}
+
+void writeLogFile(const std::string& output, const std::string& file, const std::string& bytes) {
+  const std::filesystem::path path = std::filesystem::path(output) / file;
+  std::filesystem::create_directories(path.parent_path());
+  pcrb::writeFileAtomically(path.string(), bytes);
+}
+
 LogSize logSize(const std::string& name) {
   if (name == "small") return {7, 120, 340, 8, 180, 120, 9, 2, 6, 10, 1800};
   if (name == "medium") return {20, 200, 600, 30, 270, 220, 30, 1, 6, 60, 1800};
@@ -109,7 +145,7 @@ void makeSampleLogs(const SampleLogsRequest& request) {
     }
     append(plan, planner->second(options));
   }
-  claimFolder(request);
+  claimFor(request);
   if (options.ground_truth_error > 0.0) {
     writeLogFile(request.output, kErrorsFile, errorsText(plan.errors));
   }

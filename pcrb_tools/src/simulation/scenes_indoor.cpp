@@ -2,7 +2,6 @@
 
 #include "simulation/noise.hpp"
 #include "simulation/props.hpp"
-#include "simulation/scenes.hpp"
 #include "simulation/surfaces.hpp"
 
 namespace pcrb_tools::simulation {
@@ -11,7 +10,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kWallThickness = 0.12;
 
 /// Door or window: part of a wall, from its start, with what is left below and above; m.

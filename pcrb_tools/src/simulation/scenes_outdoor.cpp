@@ -4,7 +4,6 @@
 
 #include "simulation/noise.hpp"
 #include "simulation/props.hpp"
-#include "simulation/scenes.hpp"
 #include "simulation/surfaces.hpp"
 
 namespace pcrb_tools::simulation {
@@ -13,7 +12,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kStreetBegin = -40.0;  // m
 constexpr double kStreetEnd = 140.0;    // m
 

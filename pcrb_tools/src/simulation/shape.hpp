@@ -7,6 +7,8 @@
 
 namespace pcrb_tools::simulation {
 
+constexpr double kPi = 3.141592653589793;
+
 /// What a sensor sees of a surface.
 struct Surface {
   Eigen::Vector3f color;  ///< red, green, blue, each in [0, 1]

@@ -6,9 +6,9 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
 #include "simulation/depth_camera.hpp"
-#include "simulation/log_plan.hpp"
 #include "simulation/noise.hpp"
-#include "simulation/scenes.hpp"
+#include "simulation/props.hpp"
+#include "simulation/sample_logs.hpp"
 #include "tum_bag.hpp"
 
 namespace pcrb_tools::simulation {
@@ -64,7 +64,7 @@ pcrb::Transform onRobot(double time) {
   return lookAt(position, position + ahead);
 }
 
-std::vector<TumSequence> sequences() {
+std::vector<TumSequence> tumPlans() {
   return {
       {"rgbd_dataset_freiburg2_pioneer_slam", "pioneer_slam", onRobot, true, 1311877977413521548},
       {"rgbd_dataset_freiburg3_long_office_household", "long_office_household", handHeld, false,
@@ -79,7 +79,7 @@ int frameCount(const TumSequence& sequence, const LogOptions& options) {
 }
 
 /// Stamp of a frame in ns since the start: the camera's clock is its own and shakes a little.
-std::int64_t stampNs(const TumSequence& sequence, int frame, const LogOptions& options) {
+std::int64_t frameStamp(const TumSequence& sequence, int frame, const LogOptions& options) {
   pcrb::Random random =
       makeStream(options.seed, sequence.name + " stamp", static_cast<std::uint64_t>(frame));
   const double rate = sequence.clouds ? kCloudRate : options.size.tum_depth_rate;
@@ -133,14 +133,14 @@ void makeBag(const TumSequence& sequence, const Scene& scene, const LogOptions& 
         static_cast<std::size_t>(std::min(options.threads, count - first)));
     pcrb::parallelFor(frames.size(), options.threads, [&](std::size_t i) {
       const int number = first + static_cast<int>(i);
-      const double time = static_cast<double>(stampNs(sequence, number, options)) * 1e-9;
+      const double time = static_cast<double>(frameStamp(sequence, number, options)) * 1e-9;
       pcrb::Random random =
           makeStream(options.seed, sequence.name, static_cast<std::uint64_t>(number));
       frames[i] = takeFrame(scene, camera, sequence.T_world_camera(time), time, random);
     });
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const int number = first + static_cast<int>(i);
-      const std::int64_t stamp = sequence.clock_ns + stampNs(sequence, number, options);
+      const std::int64_t stamp = sequence.clock_ns + frameStamp(sequence, number, options);
       if (sequence.clouds) {
         bag.writeClouds(frames[i], stamp, number);
       } else {
@@ -169,20 +169,20 @@ LogPlan planTumLogs(const LogOptions& options) {
   const LazyScene scene = lazyScene(describeOffice, options.seed);
   const PoseError pose_error(options.seed, options.ground_truth_error);
   LogJob bags;  // one job: rosbag's plugin loader cannot open two bags at once from two threads
-  for (const TumSequence& sequence : sequences()) {
+  for (const TumSequence& sequence : tumPlans()) {
     bags.files.push_back(bagFile(sequence));
     const std::string tracking = "tum/" + sequence.name + "-groundtruth.txt";
     plan.jobs.push_back({{tracking}, [=](const std::string& output) {
                            writeLogFile(output, tracking, trackingText(sequence, options));
                          }});
     for (int i = 0; i < frameCount(sequence, options); ++i) {
-      const std::int64_t stamp = stampNs(sequence, i, options);
+      const std::int64_t stamp = frameStamp(sequence, i, options);
       plan.errors.push_back({"tum", sequence.published, cloudName(sequence.clock_ns + stamp),
                              pose_error.at(static_cast<double>(stamp) * 1e-9)});
     }
   }
   bags.make = [=](const std::string& output) {
-    for (const TumSequence& sequence : sequences()) {
+    for (const TumSequence& sequence : tumPlans()) {
       makeBag(sequence, scene.get(), options, output, bagFile(sequence));
     }
   };

@@ -110,7 +110,7 @@ TEST_F(AConversion, ThatIsLiveNeitherKeepsNorRemovesWhatAnEarlierRunMade) {
 TEST_F(AConversion, ReplacesNoCloudThatNoConverterMadeUnlessForced) {
   pcrb_test::writeFile(file("a.pcd"), "published");
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, convert({{"a.pcd", 1.0}}),
-                    "eth/plain/a.pcd: is there and was not made by a converter");
+                    "eth/plain/a.pcd: is there and was not made by this tool");
   EXPECT_EQ(pcrb_test::readFile(file("a.pcd")), "published");
   request_.force = true;
   convert({{"a.pcd", 1.0}});
@@ -121,7 +121,7 @@ TEST_F(AConversion, ReplacesNoCloudThatWasChangedSinceUnlessForced) {
   convert({{"a.pcd", 1.0}});
   pcrb_test::writeFile(file("a.pcd"), "published");
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, convert({{"a.pcd", 2.0}}),
-                    "eth/plain/a.pcd: was changed since it was converted");
+                    "eth/plain/a.pcd: was changed since it was made");
   EXPECT_EQ(pcrb_test::readFile(file("a.pcd")), "published");
   request_.force = true;
   convert({{"a.pcd", 2.0}});

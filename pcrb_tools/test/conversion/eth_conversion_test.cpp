@@ -1,9 +1,8 @@
-#include "conversion/eth_conversion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
+#include "conversion/converters.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"

@@ -1,11 +1,10 @@
-#include "conversion/kaist_conversion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 
+#include "conversion/converters.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "support/bag_writer.hpp"

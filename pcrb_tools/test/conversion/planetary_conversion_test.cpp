@@ -1,9 +1,8 @@
-#include "conversion/planetary_conversion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
+#include "conversion/converters.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "support/expect_error.hpp"

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "fetch/checksums.hpp"
-#include "fetch/confirmation.hpp"
 #include "fetch/download.hpp"
 #include "pcrb_core/error.hpp"
 #include "support/file_servers.hpp"

@@ -6,10 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "common/run_child.hpp"
+#include "common/process.hpp"
 #include "fetch/sources.hpp"
 #include "pcrb_core/error.hpp"
-#include "preparation/check_tool.hpp"
+#include "preparation/preparation_tools.hpp"
 #include "support/file_servers.hpp"
 #include "support/log_folder.hpp"
 #include "support/temporary_folder.hpp"
@@ -128,7 +128,7 @@ TEST_F(FetchToolTest, AFileThatChangedSinceItWasFetchedIsAnError) {
 
 TEST_F(FetchToolTest, DryRunOnlySaysWhatItWouldDo) {
   options_.dry_run = true;
-  options_.original = true;
+  options_.set = SourceSet::kOriginal;
   EXPECT_TRUE(fetch());
   EXPECT_TRUE(says("eth/plain: download ftp://")) << output_;
   EXPECT_TRUE(says("kaist/urban05: needs you: register and download it; there = " + options_.logs +
@@ -251,7 +251,7 @@ TEST_F(FetchToolTest, EveryPublishedSequenceIsFetchedWithItsClouds) {
 }
 
 TEST_F(FetchToolTest, ConvertsOriginalLogsAndPassesAFailureOn) {
-  options_.original = true;
+  options_.set = SourceSet::kOriginal;
   options_.sequences = {"eth"};
   EXPECT_TRUE(fetch()) << output_;
   EXPECT_TRUE(fs::exists(folder_.file("logs/eth/plain.zip")));
@@ -274,7 +274,7 @@ TEST_F(FetchToolTest, ALogThatLacksAFileIsNotConverted) {
             "file: tum/s-groundtruth.txt, url: \"" +
             servers_.http(poses) + "\"}\n");
   };
-  options_.original = true;
+  options_.set = SourceSet::kOriginal;
   writeFile(folder_.file("s.bag"), "#ROSBAG V2.0\nrest");
   writeFile(folder_.file("s.txt"), "# poses\n");
   set("/page/s.txt");
@@ -299,7 +299,7 @@ TEST_F(FetchToolTest, SomethingElseIsNoBagAndATruncatedArchiveIsNoArchive) {
             "sources:\n  - {data_set: tum, sequence: s, set: original, kind: log, file: tum/s.bag, "
             "bytes: 9, url: \"" +
                 servers_.http("/files/plain_local.txt") + "\"}\n");
-  options_.original = true;
+  options_.set = SourceSet::kOriginal;
   EXPECT_FALSE(fetch());
   EXPECT_TRUE(says("bytes, expected 9")) << output_;
   writeFile(options_.sources,
@@ -312,7 +312,7 @@ TEST_F(FetchToolTest, SomethingElseIsNoBagAndATruncatedArchiveIsNoArchive) {
 }
 
 TEST_F(FetchToolTest, SaysHowToGetWhatCannotBeDownloaded) {
-  options_.original = true;
+  options_.set = SourceSet::kOriginal;
   options_.sequences = {"kaist/urban05"};
   EXPECT_FALSE(fetch());
   EXPECT_TRUE(says("error: kaist/urban05 cannot be downloaded: register and download it"))

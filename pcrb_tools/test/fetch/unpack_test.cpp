@@ -1,10 +1,9 @@
-#include "fetch/unpack.hpp"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <filesystem>
 
+#include "fetch/published_files.hpp"
 #include "pcrb_core/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"

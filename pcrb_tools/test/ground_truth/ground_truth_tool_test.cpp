@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "conversion/eth_conversion.hpp"
+#include "conversion/converters.hpp"
 #include "ground_truth/pair_file.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"

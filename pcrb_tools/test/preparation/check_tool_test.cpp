@@ -1,5 +1,3 @@
-#include "preparation/check_tool.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -10,7 +8,7 @@
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
 #include "pcrb_core/random.hpp"
-#include "preparation/sampling_tool.hpp"
+#include "preparation/preparation_tools.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 

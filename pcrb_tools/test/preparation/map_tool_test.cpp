@@ -1,5 +1,3 @@
-#include "preparation/map_tool.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,6 +7,7 @@
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/random.hpp"
 #include "pcrb_core/search/voxel_map.hpp"
+#include "preparation/preparation_tools.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb_tools {

@@ -1,5 +1,3 @@
-#include "preparation/overlap_tool.hpp"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -8,12 +6,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/provenance.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/overlap.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
 #include "pcrb_core/random.hpp"
+#include "preparation/preparation_tools.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb_tools {
@@ -84,7 +82,7 @@ TEST_F(OverlapToolTest, GoesOnFromAJournalWithATornLastLine) {
   const std::string complete = textOf(output_);
   // What an interrupted run leaves behind: column 0 (here with a value that tells it apart), and
   // half of column 1.
-  std::string side = textOf(sideFile(output_));
+  std::string side = textOf(pcrb::sideFile(output_));
   side.resize(side.find("output_blake2b"));
   std::string journal = side + "0 1";
   for (int i = 1; i < 12; ++i) journal += " 0.125";
@@ -103,7 +101,7 @@ TEST_F(OverlapToolTest, GoesOnFromAJournalWithATornLastLine) {
 TEST_F(OverlapToolTest, AJournalOfOtherCloudsOfTheSameSizesIsBegunAnew) {
   const std::string cloud = textOf(cloudFile(3));
   runOverlapTool(options_);
-  std::string journal = textOf(sideFile(output_));
+  std::string journal = textOf(pcrb::sideFile(output_));
   journal.resize(journal.find("output_blake2b"));
   journal += "0 1";
   for (int i = 1; i < 12; ++i) journal += " 0.125";

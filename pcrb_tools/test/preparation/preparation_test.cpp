@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// `data set/sequence: inputs without the folder`.
-std::vector<std::string> textOf(const std::vector<LogSequence>& logs, const std::string& folder) {
+std::vector<std::string> textOf(const std::vector<SequenceLog>& logs, const std::string& folder) {
   std::vector<std::string> lines;
   for (const auto& log : logs) {
     std::string line = log.data_set + '/' + log.sequence + ':';

@@ -1,5 +1,3 @@
-#include "preparation/sampling_tool.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -14,6 +12,7 @@
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/random.hpp"
+#include "preparation/preparation_tools.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb_tools {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "pcrb_core/point_cloud.hpp"
-#include "simulation/scenes.hpp"
+#include "simulation/props.hpp"
 #include "support/sample_log_support.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -90,7 +90,7 @@ TEST(SampleLogs, RefusesAFolderWithLogsOfAnotherSeed) {
   SampleLogsRequest request = requestIn(folder);
   makeSampleLogs(request);
   request.seed = 2;
-  EXPECT_THROW(makeSampleLogs(request), pcrb::InvalidParameter);
+  EXPECT_THROW(makeSampleLogs(request), pcrb::InvalidFile);
 }
 
 TEST(SampleLogs, RefusesAFolderWithOtherContents) {
@@ -98,7 +98,7 @@ TEST(SampleLogs, RefusesAFolderWithOtherContents) {
   SampleLogsRequest request = requestIn(folder);
   request.output = folder.path();
   std::ofstream(folder.file("real.bag")) << "real";
-  EXPECT_THROW(makeSampleLogs(request), pcrb::InvalidParameter);
+  EXPECT_THROW(makeSampleLogs(request), pcrb::InvalidFile);
   EXPECT_EQ(readTree(folder.path()).size(), 1U);
 }
 

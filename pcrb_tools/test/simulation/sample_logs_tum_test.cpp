@@ -9,7 +9,7 @@
 #include <cstring>
 #include <regex>
 
-#include "simulation/scenes.hpp"
+#include "simulation/props.hpp"
 #include "support/sample_log_support.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "pcrb_core/random.hpp"
-#include "simulation/bvh.hpp"
 #include "simulation/height_field.hpp"
 #include "simulation/props.hpp"
 #include "simulation/scene.hpp"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "simulation/depth_camera.hpp"
-#include "simulation/lidar.hpp"
 #include "simulation/noise.hpp"
 #include "simulation/props.hpp"
 #include "simulation/scanner.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pcrb_core/parallel.hpp"
-#include "simulation/log_plan.hpp"
+#include "simulation/sample_logs.hpp"
 
 namespace pcrb_test {
 

@@ -15,7 +15,8 @@ def points_of(cloud):
     names = 'x', 'y', 'z'
     layout = np.dtype({'names': names, 'formats': [DTYPES[fields[name].datatype] for name in names],
                        'offsets': [fields[name].offset for name in names], 'itemsize': cloud.point_step})
-    data = np.frombuffer(cloud.data, layout, cloud.width * cloud.height)
+    row_step = cloud.row_step if cloud.height > 1 and cloud.row_step else cloud.width * cloud.point_step
+    data = np.ndarray((cloud.height, cloud.width), layout, cloud.data, strides=(row_step, cloud.point_step)).ravel()
     return np.stack([data[name].astype(float) for name in names], axis=1)
 
 
