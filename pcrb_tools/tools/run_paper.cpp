@@ -1,4 +1,4 @@
-#include "benchmarking/paper_tool.hpp"
+#include "benchmarking/batch_tool.hpp"
 #include "common/tool_main.hpp"
 #include "report/report_tool.hpp"
 

@@ -10,8 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "benchmarking/batch_configuration.hpp"
-#include "benchmarking/orphans.hpp"
+#include "benchmarking/child_process.hpp"
 #include "benchmarking/shard.hpp"
 #include "common/interruption.hpp"
 #include "common/progress.hpp"
@@ -62,7 +61,7 @@ class Batch {
 
 Batch::Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOptions& options)
     : jobs_(static_cast<std::size_t>(options.jobs)) {
-  adoptOrphans();
+  becomeSubreaper();
   for (int i = 0; i < settings->shards; ++i) {
     if (!options.only || *options.only == i) {
       shards_.push_back(std::make_unique<Shard>(settings, i));
@@ -77,7 +76,7 @@ Batch::Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOp
 Batch::~Batch() {
   stop();
   shards_.clear();
-  endOrphans({});
+  endDescendants({});
 }
 
 void Batch::run() {
@@ -122,7 +121,7 @@ void Batch::endLeftNodes() {
   for (Shard* shard : running_) {
     if (!shard->hasEnded()) at_work.insert(shard->pid());
   }
-  if (at_work.size() < running_.size()) endOrphans(at_work);
+  if (at_work.size() < running_.size()) endDescendants(at_work);
 }
 
 void Batch::reap() {

@@ -1,5 +1,3 @@
-#include "benchmarking/paper_tool.hpp"
-
 #include <algorithm>
 #include <array>
 #include <filesystem>

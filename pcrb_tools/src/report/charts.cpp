@@ -1,11 +1,10 @@
-#include "report/charts.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "report/attempts.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -1,5 +1,3 @@
-#include "report/comparison_tables.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,6 +5,7 @@
 #include "pcrb_core/evaluation/rank_tests.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "report/published.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {

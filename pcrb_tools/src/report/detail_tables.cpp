@@ -1,5 +1,3 @@
-#include "report/detail_tables.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "report/attempts.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {

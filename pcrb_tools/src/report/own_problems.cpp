@@ -6,7 +6,7 @@
 #include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/problem/problem.hpp"
-#include "report/catalog.hpp"
+#include "report/published.hpp"
 
 namespace pcrb_tools {
 namespace {

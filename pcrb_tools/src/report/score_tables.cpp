@@ -1,5 +1,3 @@
-#include "report/score_tables.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "report/own_problems.hpp"
 #include "report/published.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -66,18 +65,6 @@ bool hasBothKinds(const std::vector<Section>& sections, const std::string& metho
     for (const Entry* entry : section.entries) kinds += entry->method == method ? 1 : 0;
   }
   return kinds > 1;
-}
-
-/// Median over a sequence's sources of the metric of a translation of 1 m.
-std::optional<double> errorPerMetre(const Section& section, const Selection& selection) {
-  std::vector<double> values;
-  for (const Entry* entry : section.entries) {
-    for (const ScoredProblem* problem : select(*entry, selection)) {
-      if (problem->error_per_metre) values.push_back(*problem->error_per_metre);
-    }
-  }
-  if (values.empty()) return std::nullopt;
-  return pcrb::describe(std::move(values)).median;
 }
 
 }  // namespace
@@ -158,28 +145,6 @@ Table publishedTable(const Section& section) {
     std::vector<Json> row{published.method, published.sequence};
     for (const double value : published.statistics) row.emplace_back(value);
     table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-Table groundTruthTable(const Section& section, const std::vector<GroundTruth>& accuracies) {
-  Table table{"ground_truth",
-              "Accuracy of the ground truth",
-              "Mean and standard deviation in m, as evaluate_ground_truth finds them. floor is the "
-              "error of a translation by the mean: methods cannot be told apart below it.",
-              {{"data set"}, {"sequence"}},
-              {}};
-  for (const char* name : {"mean", "stddev", "floor"}) {
-    table.columns.push_back({name, Format::kError});
-  }
-  for (const Selection* selection : section.at({"sequence"})) {
-    const auto& [data_set, sequence] = *selection->sequences.begin();
-    for (const GroundTruth& accuracy : accuracies) {
-      if (accuracy.data_set != data_set || accuracy.sequence != sequence) continue;
-      const auto scale = errorPerMetre(section, *selection);
-      table.rows.push_back({data_set, selection->name, accuracy.mean, accuracy.stddev,
-                            scale ? Json(accuracy.mean * *scale) : Json(nullptr)});
-    }
   }
   return table;
 }

@@ -4,8 +4,8 @@
 #include <map>
 #include <tuple>
 
-#include "report/catalog.hpp"
 #include "report/own_problems.hpp"
+#include "report/published.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -8,12 +8,12 @@
 #include <sstream>
 
 #include "conversion/eth_conversion.hpp"
-#include "ground_truth/pair_file.hpp"
+#include "ground_truth/pair_evaluation.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/problem/problem.hpp"
-#include "report/ground_truth.hpp"
+#include "report/details.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"
 #include "support/sample_log_support.hpp"
