@@ -15,7 +15,9 @@ constexpr std::size_t kQuantileBins = 8;
 
 Json solvedCurves(const Section& section, const std::vector<double>& thresholds) {
   Json curves = Json::array();
-  for (const Entry* entry : section.entries) {
+  std::vector<const Entry*> entries = section.entries;
+  if (section.baseline) entries.push_back(&*section.baseline);
+  for (const Entry* entry : entries) {
     Json curve;
     curve["method"] = entry->method;
     curve["fractions"] = pcrb::fractionSolved(

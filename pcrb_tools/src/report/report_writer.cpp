@@ -111,6 +111,7 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   json["kind"] = kind_;
   json["methods"] = Json::array();
   for (const Entry* entry : section.entries) json["methods"].push_back(describeEntry(*entry));
+  json["baseline"] = section.baseline ? Json(section.baseline->method) : Json(nullptr);
   json["selections"] = describeSelections(section);
   json["tables"] = Json::object();
   tables_ = &json["tables"];

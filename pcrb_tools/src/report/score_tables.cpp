@@ -30,16 +30,20 @@ std::vector<Json> scoreRow(const Entry& entry, const Selection& selection,
                            const ReportOptions& options) {
   const Problems problems = select(entry, selection);
   std::vector<Json> row{entry.method, selection.name, selection.level, problems.size()};
-  for (const std::size_t count : outcomesOf(problems)) row.emplace_back(count);
+  for (const std::size_t count : outcomesOf(problems)) {
+    row.push_back(entry.method == kBaseline ? Json(nullptr) : Json(count));
+  }
   appendStatistics(pcrb::describe(errorsOf(problems)), row);
   pcrb::BootstrapOptions bootstrap;
   bootstrap.resamples = options.resamples;
   bootstrap.seed = options.seed;
   const auto units = unitsOf(problems);
+  const std::size_t pairs = units.empty() ? 0 : *std::max_element(units.begin(), units.end()) + 1;
   const auto interval = pcrb::medianInterval(errorsOf(problems), units, bootstrap);
-  row.push_back(number(interval.low));
-  row.push_back(number(interval.high));
-  row.emplace_back(units.empty() ? 0 : *std::max_element(units.begin(), units.end()) + 1);
+  for (const double end : {interval.low, interval.high}) {
+    row.push_back(pairs < kFewestPairs ? Json(nullptr) : number(end));
+  }
+  row.emplace_back(pairs);
   return row;
 }
 
@@ -70,14 +74,17 @@ bool hasBothKinds(const std::vector<Section>& sections, const std::string& metho
 }  // namespace
 
 Table scoreTable(const Section& section, const ReportOptions& options) {
-  Table table{"scores",
-              "Errors and outcomes",
-              "median is the score; low and high are the ends of its 95 % bootstrap interval over "
-              "pairs of clouds; stddev has n in the denominator; a problem without a valid reply "
-              "counts with its initial misalignment. Groups are by characteristics that this suite "
-              "or a dataset.yaml assigns, not by the paper's Tables 2 and 3.",
-              {{"method"}, {"selection"}, {"level"}, {"problems", Format::kCount}},
-              {}};
+  Table table{
+      "scores",
+      "Errors and outcomes",
+      "median is the score; low and high are the ends of its 95 % bootstrap interval over "
+      "pairs of clouds, of which there must be 6; stddev has n in the denominator; a problem "
+      "without a valid reply "
+      "counts with its initial misalignment, and `do nothing` is that of all problems: a method "
+      "above it makes things worse. Groups are by characteristics that this suite "
+      "or a dataset.yaml assigns, not by the paper's Tables 2 and 3.",
+      {{"method"}, {"selection"}, {"level"}, {"problems", Format::kCount}},
+      {}};
   for (std::size_t i = 0; i < 5; ++i) {
     table.columns.push_back({pcrb::toString(static_cast<pcrb::Outcome>(i)), Format::kCount});
   }
@@ -91,6 +98,12 @@ Table scoreTable(const Section& section, const ReportOptions& options) {
       if (!select(*entry, selection).empty()) {
         table.rows.push_back(scoreRow(*entry, selection, options));
       }
+    }
+  }
+  if (!section.baseline) return table;
+  for (const Selection& selection : section.selections) {
+    if (!select(*section.baseline, selection).empty()) {
+      table.rows.push_back(scoreRow(*section.baseline, selection, options));
     }
   }
   return table;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -23,6 +24,9 @@ struct Section {
   pcrb::Kind kind = pcrb::Kind::kLocal;
   std::vector<const Entry*> entries;
   std::vector<Selection> selections;  ///< sequences, data sets, groups, total
+  /// The entries' problems as a method leaves them that returns the initial guess: what a score is
+  /// worth. None where no initial misalignment is known.
+  std::optional<Entry> baseline;
   /// Of all pairs of clouds in the problem file of a sequence (data set, sequence), where known.
   std::map<std::pair<std::string, std::string>, std::vector<double>> overlaps;
   /// Sequences (data set, sequence) whose problems are not the published ones in some entry,
@@ -32,6 +36,9 @@ struct Section {
   /// Selections of some levels.
   std::vector<const Selection*> at(const std::set<std::string>& levels) const;
 };
+
+/// Name of the baseline among methods.
+constexpr const char* kBaseline = "do nothing";
 
 /// One section per kind that has entries. The entries must outlive it.
 ///
