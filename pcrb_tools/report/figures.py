@@ -120,14 +120,15 @@ def components(table, colors):
     figure, axes = plt.subplots(1, 2, figsize=(COLUMN, 2.2))
     for axis, names, unit in zip(axes, (['x', 'y', 'z'], ['roll', 'pitch', 'yaw']), ('m', 'degrees')):
         shown = sorted((r for r in rows if r['axis'] in names), key=lambda r: names.index(r['axis']))
-        boxes = [{'med': r['median'], 'q1': r['q25'], 'q3': r['q75'], 'whislo': r['q05'], 'whishi': r['q95'],
-                  'label': r['axis']} for r in shown]
+        boxes = [{'med': r['median'], 'q1': r['q25'], 'q3': r['q75'], 'whislo': r['q05'], 'whishi': r['q95']} for r in shown]
         drawn = axis.bxp(boxes, showfliers=False, patch_artist=True, medianprops={'color': 'black'})
+        groups = [[i + 1 for i, r in enumerate(shown) if r['axis'] == name] for name in names]
+        axis.set_xticks([sum(group) / len(group) for group in groups if group], [n for n, group in zip(names, groups) if group])
         for patch, row in zip(drawn['boxes'], shown):
             patch.set_facecolor(colors[row['method']])
         axis.set_ylabel(f'error ({unit})')
-    axes[0].legend(handles=handles_of({row['method']: colors[row['method']] for row in rows}), ncol=4, loc='lower left',
-                   bbox_to_anchor=(0, 1.0))
+    figure.suptitle(' ')  # keeps room for the legend, which the layout does not see
+    figure.legend(handles=handles_of({row['method']: colors[row['method']] for row in rows}), ncol=4, loc='upper center')
     return figure
 
 

@@ -56,11 +56,21 @@ class Batch {
   std::vector<Shard*> running_;
   std::vector<std::string> defects_;
   Clock::time_point start_ = Clock::now();
-  Progress progress_{"run", "problems", 0};
+  Progress progress_;
 };
 
+/// What is benchmarked, for people who watch: the method or the node, as far as arguments say it.
+std::string subjectOf(const BatchOptions& options) {
+  for (const std::string prefix : {"method:=", "node_launch:="}) {
+    for (const std::string& argument : options.arguments) {
+      if (argument.rfind(prefix, 0) == 0) return argument.substr(prefix.size());
+    }
+  }
+  return "run";
+}
+
 Batch::Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOptions& options)
-    : jobs_(static_cast<std::size_t>(options.jobs)) {
+    : jobs_(static_cast<std::size_t>(options.jobs)), progress_(subjectOf(options), "problems", 0) {
   becomeSubreaper();
   for (int i = 0; i < settings->shards; ++i) {
     if (!options.only || *options.only == i) {

@@ -55,10 +55,13 @@ struct PaperOptions {
   std::string root;                  ///< folder of the data sets
   std::string run;                   ///< folder of the runs, one below it per method
   std::vector<std::string> methods;  ///< to run; empty = all of the paper
-  std::string sequences = "all";
+  std::string plugin;                ///< library of the methods that are not the paper's
+  std::string parameters;            ///< parameter file of those methods
+  std::string kind = "local";        ///< kind of the problems that those methods are given
+  std::vector<std::string> sequences{"all"};
   int subset = 0;            ///< number of problems per method, 0 = all
   int seed = 1;              ///< of the subset
-  double time_limit = 60.0;  ///< s per problem
+  double time_limit = 30.0;  ///< s per problem
   int jobs = 1;              ///< benchmarks at the same time; latencies are true with one only
   /// Writes the report of runs into a folder.
   std::function<void(const std::vector<std::string>& runs, const std::string& output)> write_report;
@@ -72,7 +75,8 @@ std::vector<std::string> paperMethods();
 /// What is complete is kept, what was interrupted goes on. A method that fails does not keep the
 /// others from running; the report is of all that are complete, those of earlier calls too.
 /// @return  exit status: 0 only if every problem of every method has its result and was reported.
-/// @throws pcrb::Error  if a folder holds a run of another configuration, or nothing is complete.
+/// @throws pcrb::Error  if a method is neither the paper's nor can be a plugin's, a folder holds a
+///                      run of another configuration, or nothing is complete.
 int runPaperTool(const PaperOptions& options);
 
 }  // namespace pcrb_tools

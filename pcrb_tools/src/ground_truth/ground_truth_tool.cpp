@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 using pcrb::SequenceFiles;
 
 bool isNamed(const SequenceFiles& files, const std::string& name) {
-  return name == files.data_set || name == files.data_set + "/" + files.sequence;
+  return name == "all" || name == files.data_set || name == files.sequence ||
+         name == files.data_set + "/" + files.sequence;
 }
 
 std::vector<SequenceFiles> findWanted(const GroundTruthOptions& options) {

@@ -15,7 +15,7 @@ namespace pcrb_tools {
 /// What `evaluate_ground_truth` is asked for.
 struct GroundTruthOptions {
   std::string root;                      ///< folder of data sets; empty = imports only
-  std::vector<std::string> sequences;    ///< `<data set>` or `<data set>/<sequence>`; empty = all
+  std::vector<std::string> sequences;    ///< data sets, sequences, or both as `a/b`; empty = all
   pcrb::Kind kind = pcrb::Kind::kLocal;  ///< of the problem files whose pairs are evaluated
   std::vector<std::string> imports;      ///< `<data set>=<path>/<sequence>.csv`
   std::string output;                    ///< folder, made where missing

@@ -12,9 +12,6 @@ namespace pcrb_tools {
 /// Pairs of clouds below which no interval is given: Wilcoxon's test of five cannot reject either.
 constexpr std::size_t kFewestPairs = 6;
 
-/// Pairs of clouds below which no interval is given: Wilcoxon's test of five cannot reject either.
-constexpr std::size_t kFewestPairs = 6;
-
 /// Statistics of the error and outcomes, a row per method and selection of all levels, the medians
 /// with their confidence intervals; the baseline comes last.
 Table scoreTable(const Section& section, const ReportOptions& options);

@@ -179,8 +179,10 @@ TEST_F(WrongGroundTruth, OfPairsThatCannotBeAlignedIsUnknownAndStopsNoOther) {
   ASSERT_EQ(floors.size(), 1U);
   EXPECT_EQ(floors.front().sequence, "apartment");
 
-  options_.sequences = {"eth/hut"};
-  PCRB_EXPECT_ERROR(pcrb::InvalidProblem, run(), "no pair that could be aligned");
+  for (const std::string name : {"eth/hut", "hut"}) {
+    options_.sequences = {name};
+    PCRB_EXPECT_ERROR(pcrb::InvalidProblem, run(), "no pair that could be aligned");
+  }
 }
 
 TEST(GroundTruthTool, RefusesAFileThatItDidNotMake) {
