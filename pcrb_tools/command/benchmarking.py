@@ -22,7 +22,7 @@ MASTER = Option('master', 'ROS master: one of its own on a free port, or the one
                 choices=('own', 'current'), default='own')
 JSON = Option('json', 'print the result as JSON and nothing else', 'flag')
 OWN_SETTINGS = ('shard', 'autostart', 'required', 'client', 'under-test', 'connect-limit', 'ready-limit', 'loop')
-CHOICES = {'settle': ('first', 'nth', 'stable', 'deadline'), 'order': ('finished', 'worst', 'best')}
+CHOICES = {'restart': ('never', 'target', 'problem'), 'settle': ('first', 'nth', 'stable', 'deadline'), 'order': ('finished', 'worst', 'best')}
 
 
 def options_of(file, changes):
@@ -58,6 +58,8 @@ class Benchmark:
                             + did_you_mean(values['method'], methods))
         if values.get('plugin') and not values['parameters'] and values['method'] not in methods:
             mistakes.append('--parameters: must be given with a method of your own: ' + WORDS['parameters'].help)
+        if 'node' in values and not values['node'] and values['master'] == 'own':
+            mistakes.append('--node: must be given: launch file of the node, or package and file (or --master current with a node there)')
         if values['master'] == 'current' and values['jobs'] > 1:
             mistakes.append('--jobs: found several, expected 1 with --master current')
         if values['master'] == 'current' and not has_master():

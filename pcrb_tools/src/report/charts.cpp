@@ -3,7 +3,6 @@
 
 #include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
-#include "report/attempts.hpp"
 #include "report/section_tables.hpp"
 
 namespace pcrb_tools {
@@ -21,7 +20,7 @@ Json solvedCurves(const Section& section, const std::vector<double>& thresholds)
     Json curve;
     curve["method"] = entry->method;
     curve["fractions"] = pcrb::fractionSolved(
-        attemptsOf(select(*entry, *section.at({"total"}).front())), thresholds);
+        outcomesForSuccess(select(*entry, *section.at({"total"}).front())), thresholds);
     curves.push_back(curve);
   }
   return curves;

@@ -5,7 +5,6 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "report/own_problems.hpp"
 #include "report/published.hpp"
 #include "report/section_tables.hpp"
 

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "pcrb_core/evaluation/statistics.hpp"
-#include "report/own_problems.hpp"
 #include "report/published.hpp"
 #include "report/section_tables.hpp"
 

@@ -1,10 +1,10 @@
 #include "report/section.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <tuple>
 
-#include "report/own_problems.hpp"
 #include "report/published.hpp"
 
 namespace pcrb_tools {
@@ -177,6 +177,17 @@ std::string sequenceName(const Section& section, const pcrb::ProblemKey& key) {
     if (selection->sequences.count({key.data_set, key.sequence}) > 0) return selection->name;
   }
   return key.sequence;
+}
+
+std::vector<pcrb::ProblemOutcome> outcomesForSuccess(const Problems& problems) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  std::vector<pcrb::ProblemOutcome> outcomes;
+  for (const ScoredProblem* problem : problems) {
+    outcomes.push_back({problem->isAnswered(), problem->error,
+                        problem->rotation_error.value_or(kNaN),
+                        problem->translation_error.value_or(kNaN)});
+  }
+  return outcomes;
 }
 
 }  // namespace pcrb_tools
