@@ -34,7 +34,7 @@ class OfOneSequence:
 
     def own_options(self, *tools, drop=()):
         """Options of both programs, each once, without those that say what root, sequences and kind say."""
-        options, seen = [], set(drop) | {'folder', 'problem-file', 'sequence'}
+        options, seen = [], set(drop) | {'folder', 'problem-file', 'name'}
         for tool in tools:
             for option in tool.options():
                 if option.name not in seen:

@@ -15,12 +15,36 @@ struct Options {
   std::vector<double> sensor_in_body;
 };
 
+void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) {
+  auto& tracking = options.tracking;
+  app.add_option("--output", tracking.output, "folder of the results of a sequence")
+      ->needs(sequence);
+  app.add_option("--scans", tracking.scans,
+                 "list that sequence_to_bag or replay wrote [timestamps are in the clouds' names, "
+                 "poses in the clouds' frame]")
+      ->needs(sequence);
+  app.add_option("--max-difference", tracking.max_difference,
+                 "largest time between a scan and its pose, s")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(sequence)
+      ->capture_default_str();
+  app.add_option("--delta", tracking.delta, "number of scans over which relative errors are taken")
+      ->check(CLI::PositiveNumber)
+      ->needs(sequence)
+      ->capture_default_str();
+  app.add_flag("--align", tracking.align, "align the trajectory rigidly before the absolute errors")
+      ->needs(sequence);
+  app.add_option("--sensor-in-body", options.sensor_in_body,
+                 "x y z qx qy qz qw of the sensor where poses are those of a body")
+      ->expected(7)
+      ->needs(sequence);
+}
+
 void addOptions(CLI::App& app, Options& options) {
   auto& problems = options.problems;
-  auto& tracking = options.tracking;
   auto* file = app.add_option("problem_file", problems.problem_file,
                               "<root>/<data set>/<sequence>_local.txt or _global.txt");
-  auto* sequence = app.add_option("--sequence", tracking.folder,
+  auto* sequence = app.add_option("--sequence", options.tracking.folder,
                                   "<root>/<data set>/<sequence>: score a trajectory instead");
   sequence->excludes(file);
   app.add_option("--poses", problems.poses.path,
@@ -44,27 +68,7 @@ void addOptions(CLI::App& app, Options& options) {
                  "number of problems that were drawn, without a key; 0 = all")
       ->needs(file);
   app.add_option("--seed", problems.seed, "seed of that draw, without a key")->needs(file);
-  app.add_option("--output", tracking.output, "folder of the results of a sequence")
-      ->needs(sequence);
-  app.add_option("--scans", tracking.scans,
-                 "list that sequence_to_bag or replay wrote [timestamps are in the clouds' names, "
-                 "poses in the clouds' frame]")
-      ->needs(sequence);
-  app.add_option("--max-difference", tracking.max_difference,
-                 "largest time between a scan and its pose, s")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(sequence)
-      ->capture_default_str();
-  app.add_option("--delta", tracking.delta, "number of scans over which relative errors are taken")
-      ->check(CLI::PositiveNumber)
-      ->needs(sequence)
-      ->capture_default_str();
-  app.add_flag("--align", tracking.align, "align the trajectory rigidly before the absolute errors")
-      ->needs(sequence);
-  app.add_option("--sensor-in-body", options.sensor_in_body,
-                 "x y z qx qy qz qw of the sensor where poses are those of a body")
-      ->expected(7)
-      ->needs(sequence);
+  addTrackingOptions(app, sequence, options);
 }
 
 int score(Options& options) {
