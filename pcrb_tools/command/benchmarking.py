@@ -22,7 +22,8 @@ MASTER = Option('master', 'ROS master: one of its own on a free port, or the one
                 choices=('own', 'current'), default='own')
 JSON = Option('json', 'print the result as JSON and nothing else', 'flag')
 OWN_SETTINGS = ('shard', 'autostart', 'required', 'client', 'under-test', 'connect-limit', 'ready-limit', 'loop')
-CHOICES = {'restart': ('never', 'target', 'problem'), 'settle': ('first', 'nth', 'stable', 'deadline'), 'order': ('finished', 'worst', 'best')}
+CHOICES = {'restart': ('never', 'target', 'problem'), 'settle': ('first', 'nth', 'stable', 'deadline'),
+           'order': ('finished', 'worst', 'best')}
 
 
 def options_of(file, changes):
@@ -43,8 +44,8 @@ class Benchmark:
 
     def options(self):
         jobs = dataclasses.replace(WORDS['jobs'], default=1)
-        return [*options_of(self.file, {'root': {'required': True}, 'run': {'required': True}, **self.changes}), *self.extra,
-                jobs, MASTER, JSON]
+        required = {'root': {'required': True}, 'run': {'required': True}}
+        return [*options_of(self.file, {**required, **self.changes}), *self.extra, jobs, MASTER, JSON]
 
     def check(self, values):
         known = [(data_set, sequence) for data_set, sequence, _, _ in places.problem_files(values['root'], values['kind'])]
@@ -52,19 +53,7 @@ class Benchmark:
             return [f'--root: found no problem file below {values["root"]}, expected DATA_SET/SEQUENCE_{values["kind"]}.txt '
                     '(pcrb prepare makes them)']
         _, mistakes = places.select(values['sequences'], known, values['root'])
-        methods = places.known_methods()
-        if values.get('method') and not values.get('plugin') and not values.get('client') and values['method'] not in methods:
-            mistakes.append(f'--method: found `{values["method"]}`, expected {one_of(methods)}, or --plugin with your own'
-                            + did_you_mean(values['method'], methods))
-        if values.get('plugin') and not values['parameters'] and values['method'] not in methods:
-            mistakes.append('--parameters: must be given with a method of your own: ' + WORDS['parameters'].help)
-        if 'node' in values and not values['node'] and values['master'] == 'own':
-            mistakes.append('--node: must be given: launch file of the node, or package and file (or --master current with a node there)')
-        if values['master'] == 'current' and values['jobs'] > 1:
-            mistakes.append('--jobs: found several, expected 1 with --master current')
-        if values['master'] == 'current' and not has_master():
-            mistakes.append(f'--master: found none at {os.environ.get("ROS_MASTER_URI")}, expected a roscore there, or --master own')
-        return mistakes
+        return mistakes + method_mistakes(values) + master_mistakes(values)
 
     def arguments(self, options, values):
         always = ('root', 'time-limit')
@@ -81,9 +70,31 @@ class Benchmark:
         if values['json']:
             print(json.dumps({'status': status, **result_of(run)}, indent=1))
         elif status == 0:
-            print(f'\nlook at the worst:  pcrb replay --run {shlex.quote(values["run"])} --order worst --rviz\n'
-                  f'make the report:    pcrb report {shlex.quote(values["run"])} --output {shlex.quote(values["run"] + "/report")}')
+            shown, report = shlex.quote(values['run']), shlex.quote(values['run'] + '/report')
+            print(f'\nlook at the worst:  pcrb replay --run {shown} --order worst --rviz\n'
+                  f'make the report:    pcrb report {shown} --output {report}')
         return status
+
+
+def method_mistakes(values):
+    methods, method = places.known_methods(), values.get('method')
+    if not method or values.get('client') or method in methods:
+        return []
+    if not values['plugin']:
+        return [f'--method: found `{method}`, expected {one_of(methods)}, or --plugin with your own' + did_you_mean(method, methods)]
+    return [] if values['parameters'] else [
+        '--parameters: must be given with a method of your own: ' + WORDS['parameters'].help]
+
+
+def master_mistakes(values):
+    if values['master'] == 'own':
+        has_node = values.get('node', 'none is needed')
+        return [] if has_node else ['--node: must be given: launch file of the node, or package and file']
+    mistakes = [] if values['jobs'] == 1 else ['--jobs: found several, expected 1 with --master current']
+    if not has_master():
+        uri = os.environ.get('ROS_MASTER_URI')
+        mistakes.append(f'--master: found none at {uri}, expected a roscore there, or --master own')
+    return mistakes
 
 
 def assignment(option, values):
@@ -120,8 +131,9 @@ def launch_of(file, values):
         yield file, ()
         return
     path = os.path.join(os.path.abspath(values['run']), 'client.launch')
+    command = shlex.join(['sh', '-c', values['client']])
     with open(path, 'w', encoding='utf-8') as out:
-        out.write(CLIENT_LAUNCH.format(name=quoteattr(values['client']), args=quoteattr(shlex.join(['sh', '-c', values['client']]))))
+        out.write(CLIENT_LAUNCH.format(name=quoteattr(values['client']), args=quoteattr(command)))
     yield path, ('client:=', 'method:=', 'plugin:=', 'parameters:=')
 
 

@@ -57,8 +57,9 @@ def prepare(folder, logs, data):
 
 def benchmark(data, folder, subset):
     say(f'demo, 2 of 3: benchmark G-ICP on {subset} of their local problems, over ROS topics')
-    status = run_program([program('evaluate_batch'), '--run', folder, '--jobs', '1', f'root:={data}', 'kind:=local', 'method:=gicp',
-                          f'subset:={subset}', f'time_limit:={TIME_LIMIT}'], 'pcrb demo')
+    arguments = {'root': data, 'kind': 'local', 'method': 'gicp', 'subset': subset, 'time_limit': TIME_LIMIT}
+    status = run_program([program('evaluate_batch'), '--run', folder, '--jobs', '1',
+                          *(f'{name}:={value}' for name, value in arguments.items())], 'pcrb demo')
     if status == 0:
         say(f'demo: {folder} has results.csv, results.sqlite and the summary above, summary.txt')
     return status
@@ -66,5 +67,5 @@ def benchmark(data, folder, subset):
 
 def experiments(data, folder, subset):
     say(f'demo, 3 of 3: the paper\'s experiments, {subset} problems for each of {", ".join(METHODS)}')
-    return run_program([program('run_paper'), '--root', data, '--run', folder, '--subset', str(subset), '--time-limit', str(TIME_LIMIT)],
-                       'pcrb demo')
+    return run_program([program('run_paper'), '--root', data, '--run', folder, '--subset', str(subset),
+                        '--time-limit', str(TIME_LIMIT)], 'pcrb demo')

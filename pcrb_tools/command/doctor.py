@@ -28,7 +28,8 @@ def run(name, options, values):
     findings = [*machine(values), *ros(), *workspace(), *data(values)]
     width = max(len(what) for _, what, _ in findings)
     for state, what, text in findings:
-        print(f'{terminal.paint(state.ljust(4), {"ok": "green", "note": "yellow"}.get(state, "red"))}  {what.ljust(width)}  {text}')
+        color = {'ok': 'green', 'note': 'yellow'}.get(state, 'red')
+        print(f'{terminal.paint(state.ljust(4), color)}  {what.ljust(width)}  {text}')
     failed = sum(state == 'fix' for state, _, _ in findings)
     print('all is well' if not failed else f'{failed} to fix: each line says what to type')
     return 1 if failed else 0
@@ -42,13 +43,15 @@ def machine(values):
     yield 'ok', 'system', f'{system}, {os.cpu_count()} processors'
     memory = memory_bytes()
     if memory:
-        yield ('ok' if memory >= 2 * GIGABYTE else 'note'), 'memory', f'{memory / GIGABYTE:.1f} GB (KAIST with all methods takes 4 GB)'
+        state = 'ok' if memory >= 2 * GIGABYTE else 'note'
+        yield state, 'memory', f'{memory / GIGABYTE:.1f} GB (the demo takes 2 GB)'
     folder = os.path.abspath(os.path.expanduser(values['output']))
     while not os.path.isdir(folder):
         folder = os.path.dirname(folder)
     free = shutil.disk_usage(folder).free
-    enough = free >= 2 * GIGABYTE
-    yield ('ok' if enough else 'fix'), 'disk', f'{free / GIGABYTE:.1f} GB free at {folder}' + ('' if enough else ': the demo takes 2 GB, free some')
+    is_enough = free >= 2 * GIGABYTE
+    advice = '' if is_enough else ': the demo takes 2 GB, free some'
+    yield ('ok' if is_enough else 'fix'), 'disk', f'{free / GIGABYTE:.1f} GB free at {folder}{advice}'
 
 
 def ros():
@@ -88,8 +91,8 @@ def workspace():
         yield 'fix', 'workspace', 'source devel/setup.bash of the workspace that PCRB is built in'
         return
     yield 'ok', 'workspace', folder
-    for package, name in (('pcrb_server', 'benchmark_server'), ('pcrb_server', 'localization_bridge'), ('pcrb_tools', 'registration_node'),
-                          ('pcrb_tools', 'evaluate_batch'), ('pcrb_tools', 'report')):
+    for package, name in (('pcrb_server', 'benchmark_server'), ('pcrb_server', 'localization_bridge'),
+                          ('pcrb_tools', 'registration_node'), ('pcrb_tools', 'evaluate_batch'), ('pcrb_tools', 'report')):
         if places.find_program(name, package) is None:
             yield 'fix', name, './catkin_ws_setup.sh build'
     yield 'ok', 'methods', ', '.join(places.known_methods())
@@ -104,7 +107,8 @@ def data(values):
         yield 'fix', 'data', f'no problem files below {root}: pcrb prepare or pcrb fetch makes some'
         return
     names = sorted({f'{data_set}/{sequence}' for data_set, sequence, _, _ in files})
-    yield 'ok', 'data', f'{len(files)} problem files of {len(names)} sequences: {", ".join(names[:6])}{" ..." if len(names) > 6 else ""}'
+    shown = ', '.join(names[:6]) + (' ...' if len(names) > 6 else '')
+    yield 'ok', 'data', f'{len(files)} problem files of {len(names)} sequences: {shown}'
     for data_set, sequence, kind, path in files:
         folder = os.path.join(root, data_set, 'box_met' if sequence == 'planetary_map' else sequence)
         if not glob.glob(os.path.join(folder, '*.pcd')) and sequence != 'planetary_map':

@@ -10,6 +10,9 @@ import re
 from typing import Any, Optional, Sequence
 
 
+PLACEHOLDERS = {'int': 'N', 'number': 'X', 'folder': 'DIR', 'file': 'FILE', 'path': 'PATH'}  # by kind
+
+
 class UsageError(Exception):
     """What is wrong with a command line, a line each."""
 
@@ -40,7 +43,7 @@ class Option:
         if self.kind == 'flag':
             return ''
         choices = '|'.join(self.choices)
-        word = self.metavar or (choices if 0 < len(choices) <= 40 else '') or {'int': 'N', 'number': 'X', 'folder': 'DIR', 'file': 'FILE', 'path': 'PATH'}.get(self.kind, 'TEXT')
+        word = self.metavar or (choices if 0 < len(choices) <= 40 else '') or PLACEHOLDERS.get(self.kind, 'TEXT')
         return word + (' ...' if self.many else '')
 
     def usage(self):
@@ -85,7 +88,8 @@ class Option:
         if not re.fullmatch(r'[+-]?\d+' if is_whole else r'[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?', text):
             raise ValueError(f'found `{text}`, expected a {"whole " if is_whole else ""}number')
         value = int(text) if is_whole else float(text)
-        if not math.isfinite(value) or not (self.low is None or self.low <= value) or not (self.high is None or value <= self.high):
+        is_low = self.low is not None and value < self.low
+        if not math.isfinite(value) or is_low or self.high is not None and value > self.high:
             raise ValueError(f'found {text}, expected {bounds(self.low, self.high)}')
         return value
 

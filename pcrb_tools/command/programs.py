@@ -44,7 +44,7 @@ def shared(option):
     known = WORDS.get(name)
     if known is None:
         return dataclasses.replace(option, name=name)
-    default = known.default if option.default is None and known.default is not None and not option.required else option.default
+    default = known.default if option.default is None and not option.required else option.default
     shown = option.shown_default or known.shown_default
     if name == 'jobs' and default != 1:
         default, shown = None, 'all processors'

@@ -131,7 +131,8 @@ def table():
 
 
 def default_of(option):
-    return f' (default {option.shown_default or words_of(option.default)})' if option.shown_default or option.default not in (None, '', False, []) else ''
+    has_default = option.default not in (None, '', False, [])
+    return f' (default {option.shown_default or words_of(option.default)})' if option.shown_default or has_default else ''
 
 
 def meanings(uses):
@@ -148,11 +149,12 @@ def escaped(text):
 HEAD = '''\
 # The command `pcrb`
 
-One program in front of all others, on the PATH of a sourced workspace. `pcrb --help` lists its commands, `pcrb COMMAND --help` the
-options of one. An option is written `--name VALUE`, `--name=VALUE` or, as in roslaunch, `name:=VALUE`; one that takes several words
-takes them up to the next option. Everything is checked before anything starts: a mistake ends it with status 2 and a line that says
-what is expected. Values stay text, so sequence `00` is no number. `source <(pcrb completion bash)` completes commands, options and
-choices in bash, `source <(pcrb completion zsh)` in zsh. The ROS nodes and launch files stay for users of ROS: [interface.md](interface.md).
+One program in front of all others, on the PATH of a sourced workspace. `pcrb --help` lists its commands, `pcrb COMMAND
+--help` the options of one. An option is written `--name VALUE`, `--name=VALUE` or, as in roslaunch, `name:=VALUE`; one
+that takes several words takes them up to the next option. Everything is checked before anything starts: a mistake ends
+it with status 2 and a line that says what is expected. Values stay text, so sequence `00` is no number. `source
+<(pcrb completion bash)` completes commands, options and choices in bash, `source <(pcrb completion zsh)` in zsh. The ROS
+nodes and launch files stay for users of ROS: [interface.md](interface.md).
 
 This page is printed by `pcrb options`; a test compares the two.
 '''
