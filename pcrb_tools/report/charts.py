@@ -1,15 +1,19 @@
 """The page's charts, each made from the numbers of report.json."""
 import math
 
-from svg import BOTTOM, LEFT, RIGHT, TOP, WIDTH, Chart, Linear, Logarithmic, coordinate, error, escape, short, tip
+from svg import (BOTTOM, LEFT, RIGHT, TOP, WIDTH, Chart, Linear, Logarithmic, coordinate, error, escape, interval, short,
+                 tip)
 
 # Okabe and Ito's colours, which people tell apart who do not see all of them.
 COLORS = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8C6D31', '#7F7F7F']
+NEUTRAL = '#7c8aa0'
 SMALLEST = 1e-4  # errors below it are drawn there on a logarithmic axis
 
 
-def color_of(methods):
-    return {method: COLORS[i % len(COLORS)] for i, method in enumerate(methods)}
+def color_of(section):
+    """Colours of the methods, and of the baseline, which is none."""
+    colors = {method['method']: COLORS[i % len(COLORS)] for i, method in enumerate(section['methods'])}
+    return {**colors, **({section['baseline']: NEUTRAL} if section['baseline'] else {})}
 
 
 def rows_of(table):
@@ -18,73 +22,65 @@ def rows_of(table):
     return [dict(zip(names, row)) for row in table['rows']]
 
 
-def crop_of(values):
-    """Where bars are cut off, so that one bad result does not hide all others; None if none need be."""
-    values = sorted(v for v in values if v is not None)
-    if len(values) < 4:
-        return None
-    usual = values[int(0.8 * (len(values) - 1))]
-    return 1.6 * usual if usual > 0 and values[-1] > 2.5 * usual else None
-
-
-def median_bars(scores, colors, floors):
-    """Horizontal bars, a group per sequence. Coordinates along the error are percentages: bars fill any width while
-    the text keeps its size."""
+def medians_of(scores):
+    """Rows of each sequence and of the total, by name."""
     groups = {}
     for row in scores:
         if row['level'] in ('sequence', 'total'):
             groups.setdefault(row['selection'], []).append(row)
-    crop = crop_of([row['median'] for row in scores if row['level'] in ('sequence', 'total')])
-    highs = [min(row['high'] or row['median'], 1.5 * row['median'] + 1e-9) for rows in groups.values() for row in rows]
-    scale = Linear(0, crop or 1.05 * max(highs + list(floors.values()) + [1e-9]))
+    return groups
+
+
+def error_axis(rows, floors=()):
+    """A logarithmic axis that has all medians and their intervals: errors spread over three decades."""
+    values = [row[name] for row in rows for name in ('low', 'median', 'high') if row[name] is not None] + list(floors)
+    values = [max(value, SMALLEST) for value in values] or [SMALLEST, 1]
+    return Logarithmic(min(values) / 1.4, max(values) * 1.4)
+
+
+def median_dots(scores, colors, floors):
+    """Dots with intervals on a logarithmic axis, a group per sequence. Coordinates along the error are percentages: the
+    chart fills any width while the text keeps its size."""
+    groups = medians_of(scores)
+    scale = error_axis([row for rows in groups.values() for row in rows], floors.values())
     parts, y = [], 6
     for name, rows in groups.items():
         parts.append(f'<text x="0" y="{y + 12}" class="group">{escape(name)}</text>')
         y += 18
         top = y
         for row in rows:
-            parts.append(bar(row, colors[row['method']], scale, y))
+            parts.append(median_dot(row, colors[row['method']], scale, y))
             y += 17
         if name in floors:
             x = coordinate(percent(scale, floors[name]))
             parts.append(f'<line x1="{x}%" x2="{x}%" y1="{top - 2}" y2="{y}" class="floor">'
                          f'{tip(f"{name}: floor of the ground truth {error(floors[name])}")}</line>')
         y += 8
-    ticks = ''.join(bar_tick(scale, tick, y) for tick in scale.ticks(6))
+    ticks = ''.join(error_tick(scale, tick, y) for tick in scale.ticks(6))
     return (f'<svg class="bars" width="100%" height="{y + 34}" role="img" aria-label="medians of the error">{ticks}'
-            + ''.join(parts) + f'<text x="50%" y="{y + 30}" text-anchor="middle" class="name">median error</text></svg>')
+            + ''.join(parts) + f'<text x="50%" y="{y + 30}" text-anchor="middle" class="name">median error, logarithmic</text></svg>')
 
 
 def percent(scale, value):
-    return 85 * scale(value)  # the rest has room for the value of an interval that is cut off
+    return 1 + 97 * scale(value)
 
 
-def is_cut(row, scale):
-    """Whether the interval of a bar that is whole leaves the axis."""
-    return row['high'] is not None and row['median'] <= scale.high < row['high']
-
-
-def bar_tick(scale, tick, y):
+def error_tick(scale, tick, y):
     x = coordinate(percent(scale, tick))
     return (f'<line x1="{x}%" x2="{x}%" y1="0" y2="{y}" class="grid"/>'
-            f'<text x="{x}%" y="{y + 14}" text-anchor="{"start" if tick == 0 else "middle"}" class="tick">{short(tick)}</text>')
+            f'<text x="{x}%" y="{y + 14}" text-anchor="middle" class="tick">{short(tick)}</text>')
 
 
-def bar(row, color, scale, y):
-    title = (f'{row["method"]}, {row["selection"]}: median {error(row["median"])}, 95 % interval {error(row["low"])} to '
-             f'{error(row["high"])}, {row["problems"]} problems in {row["pairs"]} pairs')
-    is_cropped = row['median'] > scale.high
-    end = percent(scale, row['median'])
-    text = f'<rect x="0" y="{y}" width="{coordinate(max(end, 0.3))}%" height="14" class="bar" style="fill:{color}">{tip(title)}</rect>'
-    if row['low'] is not None and not is_cropped:
+def median_dot(row, color, scale, y):
+    title = (f'{row["method"]}, {row["selection"]}: median {error(row["median"])}, '
+             + (f'95 % interval {interval(row["low"], row["high"])}' if row['low'] is not None else 'too few pairs for an interval')
+             + f', {row["problems"]} problems in {row["pairs"]} pairs')
+    text = ''
+    if row['low'] is not None:
         a, b = (coordinate(percent(scale, row[side])) for side in ('low', 'high'))
-        text += f'<line x1="{a}%" x2="{b}%" y1="{y + 7}" y2="{y + 7}" class="whisker">{tip(title)}</line>'
-    if is_cut(row, scale):
-        text += f'<text x="{b}%" dx="-1" y="{y + 11}" class="beyond">▸ {error(row["high"])}</text>'
-    if is_cropped:
-        text += (f'<text x="{coordinate(end)}%" dx="-6" y="{y + 11}" text-anchor="end" class="inside">'
-                 f'{escape(row["method"])} {error(row["median"])} ▸</text>')
-    return text
+        text = f'<line x1="{a}%" x2="{b}%" y1="{y + 7}" y2="{y + 7}" class="interval" style="stroke:{color}">{tip(title)}</line>'
+    return text + (f'<circle cx="{coordinate(percent(scale, row["median"]))}%" cy="{y + 7}" r="5" class="dot" style="fill:{color}">'
+                   f'{tip(title)}</circle>')
 
 
 def solved_curves(section, colors):
@@ -93,7 +89,8 @@ def solved_curves(section, colors):
     chart = Chart(Logarithmic(thresholds[0], thresholds[-1]), Linear(0, 1), 'error threshold', 'fraction solved',
                   label='fraction of problems solved over the error threshold')
     for curve in charts['solved']:
-        chart.curve(list(zip(thresholds, curve['fractions'])), colors[curve['method']])
+        kind = 'curve baseline' if curve['method'] == section['baseline'] else 'curve'
+        chart.curve(list(zip(thresholds, curve['fractions'])), colors[curve['method']], kind)
     for curve in charts['solved']:
         for threshold, fraction in list(zip(thresholds, curve['fractions']))[::2]:
             chart.dot(threshold, fraction, colors[curve['method']],
@@ -162,13 +159,14 @@ class Rows(Chart):
 
     def __init__(self, x, x_name, rows, label):
         self.rows = rows
-        super().__init__(x, Linear(0, len(rows)), x_name, '', TOP + BOTTOM + 19 * len(rows), label)
+        left = min(220, max([LEFT, *(12 + 6.6 * len(row['label']) for row in rows)]))  # names are never cut
+        super().__init__(x, Linear(0, len(rows)), x_name, '', TOP + BOTTOM + 19 * len(rows), label, left)
 
     def draw_axes(self, x_name, y_name):
         self.y.ticks = lambda count=0: []
         super().draw_axes(x_name, y_name)
         for i, row in enumerate(self.rows):
-            self.text(LEFT - 6, self.middle(i) + 4, row['label'], 'tick', 'end')
+            self.text(self.left - 6, self.middle(i) + 4, row['label'], 'tick', 'end')
 
     def middle(self, i):
         return TOP + 19 * (i + 0.5)
@@ -176,7 +174,7 @@ class Rows(Chart):
     def mark_cut(self, low, high, y):
         """An arrow with its value for each end of a whisker that leaves the axis."""
         if low < self.x.low:
-            self.text(LEFT, y + 4, f'◂ {error(low)}', 'beyond', 'start')
+            self.text(self.left, y + 4, f'◂ {error(low)}', 'beyond', 'start')
         if high > self.x.high:
             self.text(WIDTH - RIGHT, y + 4, f'{error(high)} ▸', 'beyond', 'end')
 
@@ -214,7 +212,7 @@ def latencies(table, colors):
     rows = []
     for row in rows_of(table):
         if row['selection'] == 'total' and row['median'] is not None:
-            row['label'], row['color'] = row['method'][:7], colors[row['method']]
+            row['label'], row['color'] = row['method'], colors[row['method']]
             row['title'] = (f'{row["method"]}: median {1000 * row["median"]:.1f} ms, q05 to q95 {1000 * row["q05"]:.1f} to '
                             f'{1000 * row["q95"]:.1f} ms, max {1000 * row["max"]:.0f} ms, {row["replies"]} replies')
             rows.append(row)

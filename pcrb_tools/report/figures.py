@@ -9,7 +9,6 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
 
 import charts  # noqa: E402
-from svg import error  # noqa: E402
 
 STYLE = {'font.size': 8, 'axes.titlesize': 8, 'axes.linewidth': 0.6, 'axes.spines.top': False, 'axes.spines.right': False,
          'axes.axisbelow': True, 'axes.grid': True, 'grid.linewidth': 0.4, 'grid.color': '#dddddd', 'legend.frameon': False,
@@ -39,36 +38,34 @@ def grid(count, columns, height):
 
 
 def medians(section, colors):
-    """Bars of the medians; a bar that is cut off carries its value."""
-    scores = [row for row in charts.rows_of(section['tables']['scores']) if row['level'] in ('sequence', 'total')]
-    names = list(dict.fromkeys(row['selection'] for row in scores))
-    crop = charts.crop_of([row['median'] for row in scores])
+    """Dots with their intervals on a logarithmic axis."""
+    groups = charts.medians_of(charts.rows_of(section['tables']['scores']))
     figure, axis = plt.subplots(figsize=(COLUMN, 2.6))
-    width = 0.8 / len(colors)
     for i, (method, color) in enumerate(colors.items()):
-        rows = {row['selection']: row for row in scores if row['method'] == method}
-        for j, name in enumerate(names):
-            if name not in rows:
+        for j, rows in enumerate(groups.values()):
+            row = next((row for row in rows if row['method'] == method), None)
+            if row is None:
                 continue
-            x, height = j - 0.4 + (i + 0.5) * width, rows[name]['median']
-            is_cut = crop is not None and height > crop
-            axis.bar(x, crop if is_cut else height, width, color=color, label=method if name == names[0] else None)
-            if is_cut:
-                axis.text(x, crop, ' ' + error(height), rotation=90, ha='center', va='bottom', fontsize=6)
-    axis.set_xticks(range(len(names)), names, rotation=35, ha='right')
+            x = j - 0.4 + 0.8 * (i + 0.5) / len(colors)
+            if row['low'] is not None:
+                axis.plot([x, x], [max(row[side], charts.SMALLEST) for side in ('low', 'high')], color=color, linewidth=1)
+            axis.plot([x], [max(row['median'], charts.SMALLEST)], color=color, marker='o', markersize=3)
+    axis.set_xticks(range(len(groups)), groups, rotation=35, ha='right')
     axis.grid(axis='x', visible=False)
-    axis.set_ylabel('median error')
-    if crop:
-        axis.set_ylim(0, 1.2 * crop)
-    handles = [plt.Rectangle((0, 0), 1, 1, color=color) for color in colors.values()]
-    axis.legend(handles, colors, ncol=len(colors), loc='upper left', bbox_to_anchor=(0, 1.14))
+    axis.set(yscale='log', ylabel='median error')
+    axis.legend(handles=handles_of(colors), ncol=len(colors), loc='lower center', bbox_to_anchor=(0.5, 1.0))
     return figure
+
+
+def handles_of(colors):
+    return [plt.Line2D([], [], color=color, marker='o', markersize=3, linewidth=1, label=method) for method, color in colors.items()]
 
 
 def solved(section, colors):
     figure, axis = plt.subplots(figsize=(COLUMN / 2, 2.4))
     for curve in section['charts']['solved']:
-        axis.plot(section['charts']['thresholds'], curve['fractions'], color=colors[curve['method']], label=curve['method'])
+        axis.plot(section['charts']['thresholds'], curve['fractions'], color=colors[curve['method']], label=curve['method'],
+                  linestyle='--' if curve['method'] == section['baseline'] else '-')
     axis.set(xscale='log', xlabel='error threshold', ylabel='fraction solved', ylim=(0, 1.02))
     axis.legend()
     return figure
@@ -123,12 +120,15 @@ def components(table, colors):
     figure, axes = plt.subplots(1, 2, figsize=(COLUMN, 2.2))
     for axis, names, unit in zip(axes, (['x', 'y', 'z'], ['roll', 'pitch', 'yaw']), ('m', 'degrees')):
         shown = sorted((r for r in rows if r['axis'] in names), key=lambda r: names.index(r['axis']))
-        boxes = [{'med': r['median'], 'q1': r['q25'], 'q3': r['q75'], 'whislo': r['q05'], 'whishi': r['q95'],
-                  'label': r['axis']} for r in shown]
+        boxes = [{'med': r['median'], 'q1': r['q25'], 'q3': r['q75'], 'whislo': r['q05'], 'whishi': r['q95']} for r in shown]
         drawn = axis.bxp(boxes, showfliers=False, patch_artist=True, medianprops={'color': 'black'})
+        groups = [[i + 1 for i, r in enumerate(shown) if r['axis'] == name] for name in names]
+        axis.set_xticks([sum(group) / len(group) for group in groups if group], [n for n, group in zip(names, groups) if group])
         for patch, row in zip(drawn['boxes'], shown):
             patch.set_facecolor(colors[row['method']])
         axis.set_ylabel(f'error ({unit})')
+    figure.suptitle(' ')  # keeps room for the legend, which the layout does not see
+    figure.legend(handles=handles_of({row['method']: colors[row['method']] for row in rows}), ncol=4, loc='upper center')
     return figure
 
 
@@ -140,14 +140,15 @@ def draw(report, folder):
 
 def draw_section(section, folder):
     kind, numbers, tables = section['kind'], section['charts'], section['tables']
-    colors = charts.color_of([method['method'] for method in section['methods']])
+    colors = charts.color_of(section)
     save(medians(section, colors), folder, f'{kind}_medians')
     save(solved(section, colors), folder, f'{kind}_solved')
     for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap')):
         if numbers[name]:
             save(binned(numbers[name], colors, x_name), folder, f'{kind}_{name}')
-    for method, color in colors.items():
-        save(histograms(numbers['histograms'], method, color), folder, f'{kind}_histograms_{method}')
+    for method in section['methods']:
+        name = method['method']
+        save(histograms(numbers['histograms'], name, colors[name]), folder, f'{kind}_histograms_{name}')
     if numbers['overlaps']:
         save(overlaps(numbers['overlaps']), folder, f'{kind}_overlaps')
     if tables.get('components'):

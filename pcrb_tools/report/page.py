@@ -2,11 +2,12 @@
 from markupsafe import Markup
 
 import charts
-from svg import error
+from svg import error, interval
 
 PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('solved', 'solved'),
          ('dependence', 'dependence'), ('distributions', 'distributions'), ('axes', 'axes'), ('times', 'times'),
          ('overlap', 'overlap'), ('problems', 'problems'), ('published', 'published')]
+TOO_FEW = 'too few pairs to tell'  # the verdict of a test that could not reject
 HEADINGS = {'sequence': 'Sequences', 'data set': 'Data sets', 'group': 'By characteristic', 'total': 'All problems'}
 
 
@@ -23,14 +24,14 @@ def cell(value, form):
         return '–'
     if form == 'probability':
         return probability(value)
-    if form in ('fraction', 'seconds'):
-        return f'{value:.3f}'
+    if form == 'fraction':
+        return f'{value:.3f}' if abs(value) >= 0.0005 else error(value)
     if form == 'published':
         return f'{value:.2f}'
-    return error(value) if form == 'error' else str(value)
+    return error(value) if form in ('error', 'seconds') else str(value)
 
 
-FILTERS = {'error': error, 'cell': cell}
+FILTERS = {'error': error, 'cell': cell, 'interval': lambda row: interval(row['low'], row['high'])}
 
 
 def milliseconds(seconds):
@@ -50,7 +51,7 @@ def cards_of(section, scores):
                 latencies[row['method']] = milliseconds(row['median'])
     planned = {m['method']: m['planned'] for m in section['methods']}
     for row in scores:
-        if row['selection'] == 'total':
+        if row['selection'] == 'total' and row['method'] in planned:
             missing = int(planned[row['method']] or 0) - row['problems'] if section['is_only_kind'] else 0
             yield {**row, 'latency': latencies.get(row['method']), 'missing': max(missing, 0)}
 
@@ -59,6 +60,20 @@ def worse_than(comparisons, selection):
     """Which method was shown to be worse than which: pairs (worse, better)."""
     return {(row['b'] if row['better'] == row['a'] else row['a'], row['better'])
             for row in comparisons if row['selection'] == selection and row['better']}
+
+
+def marks_of(known, selection, comparisons):
+    """The best of a row's methods, and those that the test does not show to be worse, where it could show that: all have
+    the same problems, which are of a sequence or all, and enough pairs of clouds."""
+    tested = [row for row in comparisons if row['selection'] == selection['name']]
+    is_tested = selection['level'] == 'sequence' or selection['name'] == 'total'
+    if len(known) < 2 or selection['shared'] < selection['problems'] or not is_tested:
+        return {}
+    best = min(known, key=lambda c: c['median'])['method']
+    if any(best in (row['a'], row['b']) and row['verdict'] == TOO_FEW for row in tested):
+        return {}
+    worse = worse_than(comparisons, selection['name'])
+    return {best: 'best', **{c['method']: 'tie' for c in known if c['method'] != best and (c['method'], best) not in worse}}
 
 
 def pivot_of(section, scores, comparisons, published):
@@ -72,14 +87,11 @@ def pivot_of(section, scores, comparisons, published):
             yield {'heading': HEADINGS[level]}
         cells = [by_cell.get((selection['name'], level, name)) for name in names]
         known = [c for c in cells if c]
-        is_ranking = len(known) > 1 and selection['shared'] == selection['problems']
-        best = min(known, key=lambda c: c['median'])['method'] if is_ranking else None
-        worse = worse_than(comparisons, selection['name'])
-        is_tested = level == 'sequence' or selection['name'] == 'total'
+        marks = marks_of(known, selection, comparisons)
         for c in known:
-            is_tie = is_tested and (c['method'], best) not in worse
-            c['mark'] = '' if best is None else 'best' if c['method'] == best else 'tie' if is_tie else ''
-        yield {'name': selection['name'], 'cells': cells, 'shared': shared_of(selection),
+            c['mark'] = marks.get(c['method'], '')
+        untouched = by_cell.get((selection['name'], level, section['baseline']))
+        yield {'name': selection['name'], 'cells': cells, 'untouched': untouched, 'shared': shared_of(selection),
                'published': [published.get((name, selection['published'])) for name in section['published_columns']]}
 
 
@@ -148,14 +160,15 @@ def view(section):
         tables.setdefault(name, None)
     present = {name: table for name, table in tables.items() if table}
     section['tables'] = present
-    colors = charts.color_of([method['method'] for method in section['methods']])
+    colors = charts.color_of(section)
+    own = [method['method'] for method in section['methods']]
     scores = charts.rows_of(present['scores'])
     comparisons = charts.rows_of(present['comparisons']) if 'comparisons' in present else []
     published = published_of(section, charts.rows_of(present['published']))
     section['has_groups'] = any(selection['level'] == 'group' for selection in section['selections'])
     section['own_sequences'] = [s['name'] for s in section['selections']
                                 if s['level'] == 'sequence' and set(s['sequences']) & set(section['own_problems'])]
-    section['published_columns'] = published_columns(published, colors)
+    section['published_columns'] = published_columns(published, own)
     section['has_imports'] = any(not m['info'] for m in section['methods'])
     section['shared'] = next(shared_of(s) for s in section['selections'] if s['level'] == 'total')
     floors = {row['sequence']: row['floor'] for row in charts.rows_of(present['ground_truth'])
@@ -164,7 +177,7 @@ def view(section):
     made = {
         'colors': colors, 'floors': floors, 'parts': parts_of(section), 'tables': tables,
         'cards': list(cards_of(section, scores)),
-        'bars': trusted(charts.median_bars(scores, colors, floors)),
+        'bars': trusted(charts.median_dots(scores, colors, floors)),
         'pivot': list(pivot_of(section, scores, comparisons, published)),
         'verdicts': list(verdicts_of(comparisons)),
         'solved': trusted(charts.solved_curves(section, colors)),

@@ -7,15 +7,28 @@ WIDTH = 440
 LEFT, RIGHT, TOP, BOTTOM = 64, 12, 10, 40
 
 
+def decimals_of(value):
+    """Decimals that give a number three significant digits; None if it is too small or large for any."""
+    size = abs(float(f'{value:.2e}'))  # 9.999 has become 10
+    if size == 0:
+        return 0
+    return None if size < 1e-4 or size >= 1e5 else max(0, 2 - math.floor(math.log10(size)))
+
+
 def error(value):
-    """A number of any size in few characters."""
+    """Three significant digits, and never 0.000 for what is not 0."""
     if value is None:
         return '–'
-    size = abs(value)
-    if size >= 1e5:
-        return f'{value:.1e}'
-    decimals = 0 if size >= 1000 else 1 if size >= 100 else 2 if size >= 10 else 3 if size >= 1 else 4
-    return f'{value:.{decimals}f}'
+    decimals = decimals_of(value)
+    return f'{value:.2e}' if decimals is None else f'{value:.{decimals}f}'
+
+
+def interval(low, high):
+    """Both ends with the precision of the upper one."""
+    decimals = decimals_of(high)
+    if decimals is None or 0 < low < 0.5 * 10 ** -decimals:
+        return f'{error(low)} – {error(high)}'
+    return f'{low:.{decimals}f} – {high:.{decimals}f}'
 
 
 def short(value):
@@ -65,13 +78,13 @@ class Logarithmic:
 class Chart:
     """A frame with two axes and what is drawn into it."""
 
-    def __init__(self, x, y, x_name, y_name, height=250, label=''):
-        self.x, self.y, self.height, self.label = x, y, height, label
+    def __init__(self, x, y, x_name, y_name, height=250, label='', left=LEFT):
+        self.x, self.y, self.height, self.label, self.left = x, y, height, label, left
         self.parts = []
         self.draw_axes(x_name, y_name)
 
     def at(self, x, y):
-        return (LEFT + self.x(x) * (WIDTH - LEFT - RIGHT), self.height - BOTTOM - self.y(y) * (self.height - TOP - BOTTOM))
+        return (self.left + self.x(x) * (WIDTH - self.left - RIGHT), self.height - BOTTOM - self.y(y) * (self.height - TOP - BOTTOM))
 
     def add(self, text):
         self.parts.append(text)
@@ -83,14 +96,14 @@ class Chart:
         bottom = self.height - BOTTOM
         for tick in self.y.ticks(4):
             y = self.at(self.x.low, tick)[1]
-            self.line((LEFT, y), (WIDTH - RIGHT, y), 'grid')
-            self.text(LEFT - 6, y + 4, short(tick), 'tick', 'end')
+            self.line((self.left, y), (WIDTH - RIGHT, y), 'grid')
+            self.text(self.left - 6, y + 4, short(tick), 'tick', 'end')
         for tick in self.x.ticks():
             x = self.at(tick, self.y.low)[0]
             self.line((x, TOP), (x, bottom), 'grid')
             self.text(x, bottom + 15, short(tick), 'tick')
-        self.line((LEFT, bottom), (WIDTH - RIGHT, bottom), 'axis')
-        self.text((LEFT + WIDTH - RIGHT) / 2, self.height - 6, x_name, 'name')
+        self.line((self.left, bottom), (WIDTH - RIGHT, bottom), 'axis')
+        self.text((self.left + WIDTH - RIGHT) / 2, self.height - 6, x_name, 'name')
         middle = (TOP + bottom) / 2
         self.add(f'<text transform="translate(11 {middle:g}) rotate(-90)" text-anchor="middle" class="name">'
                  f'{escape(y_name)}</text>')
@@ -100,9 +113,9 @@ class Chart:
         points = f'x1="{coordinate(a[0])}" y1="{coordinate(a[1])}" x2="{coordinate(b[0])}" y2="{coordinate(b[1])}"'
         self.add(f'<line {points} class="{kind}"{style}>{tip(title)}</line>')
 
-    def curve(self, points, color, kind='curve'):
+    def curve(self, points, color, kind='curve', title=None):
         where = ' '.join(f'{coordinate(x)},{coordinate(y)}' for x, y in (self.at(*p) for p in points))
-        self.add(f'<polyline points="{where}" class="{kind}" style="stroke:{color}"/>')
+        self.add(f'<polyline points="{where}" class="{kind}" style="stroke:{color}">{tip(title)}</polyline>')
 
     def band(self, low, high, color):
         outline = [self.at(*p) for p in low] + [self.at(*p) for p in reversed(high)]

@@ -18,13 +18,15 @@ int main(int argc, char** argv) {
   std::string kind = "local";
   app.add_option("root", options.root, "folder of data sets in the common layout");
   app.add_option("-o,--output", options.output, "folder to write to")->required();
-  app.add_option("--sequences", options.sequences, "data sets or data_set/sequence [all]");
-  app.add_option("--kind", kind, "problem files whose pairs are taken [local]")
+  app.add_option("--sequences", options.sequences,
+                 "sequences, data sets or data_set/sequence [all]");
+  app.add_option("--kind", kind, "kind of the problem files whose pairs are taken [local]")
       ->check(CLI::IsMember({"local", "global"}));
   app.add_option("--radius", options.radius,
-                 "m, points farther apart are no pair [the data set's overlap distance]")
+                 "distance beyond which points are no pair, m [the data set's overlap distance]")
       ->check(CLI::PositiveNumber);
-  app.add_option("--pairs", options.max_pairs, "per sequence, evenly over the file [0 = all]");
+  app.add_option("--pairs", options.max_pairs,
+                 "number of pairs per sequence, evenly over its problem file [0 = all]");
   app.add_option("--import", options.imports,
                  "files of misalignments instead, <data set>=<path>/<sequence>.csv");
   app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();

@@ -20,27 +20,30 @@ int main(int argc, char** argv) {
                  "name a method");
   app.add_option(
          "--format", options.format,
-         "of the imports. ppcr: id,initial_misalignment,error; csv: columns of results.csv, "
-         "error and problem_id at least")
+         "format of the imported files. ppcr: id,initial_misalignment,error; csv: columns of "
+         "results.csv, error and problem_id at least")
       ->check(CLI::IsMember({"csv", "ppcr"}))
       ->capture_default_str();
   app.add_option("--output,-o", options.output, "folder to write to")->required();
-  app.add_option("--title", options.title)->capture_default_str();
+  app.add_option("--title", options.title, "title of the page")->capture_default_str();
   app.add_option("--root", options.root, "folder of the data sets [what each run says]");
   app.add_option(
       "--ground-truth", options.ground_truth,
       "CSV file of evaluate_ground_truth: the floor of each sequence, for which its source "
       "clouds are read");
-  app.add_option("--recall", recall, "translation (m) and rotation (degrees) [four pairs]");
-  app.add_option("--resamples", options.resamples, "of the bootstrap")
+  app.add_option(
+      "--recall", recall,
+      "translation (m) and rotation (degrees) below which a problem counts as solved [four pairs]");
+  app.add_option("--resamples", options.resamples, "number of resamples of the bootstrap")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "of the bootstrap")
+  app.add_option("--seed", options.seed, "seed of the bootstrap")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_flag("!--no-components", options.with_components,
-               "no errors along each axis, for which all clouds of a run are read");
-  app.add_flag("!--no-figures", options.draw_figures, "no PNG and PDF figures, the page only");
+               "leave out the errors along each axis, for which all clouds of a run are read");
+  app.add_flag("!--no-figures", options.draw_figures,
+               "leave out the PNG and PDF figures, which take most of the time");
   return pcrb_tools::runTool(app, argc, argv, [&] {
     if (!recall.empty()) options.recall_limits.clear();
     for (const auto& [metres, degrees] : recall)

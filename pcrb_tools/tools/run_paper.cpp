@@ -1,12 +1,11 @@
-#include "benchmarking/paper_tool.hpp"
+#include "benchmarking/batch_tool.hpp"
 #include "common/tool_main.hpp"
 #include "report/report_tool.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Runs the paper's experiments: icp, gicp, ndt, ppcr on local problems, ransac, fgr, teaser "
-      "on "
-      "global ones; then writes the report.");
+      "Runs the paper's experiments, or some and a method of your own: icp, gicp, ndt, ppcr on "
+      "local problems, ransac, fgr, teaser on global ones; then writes the report.");
   app.footer(
       "Each method has its run in <run>/<method>; <run>/report/index.html is the page. Started "
       "again "
@@ -16,28 +15,34 @@ int main(int argc, char** argv) {
   pcrb_tools::PaperOptions options;
   app.add_option("--root", options.root, "folder of the data sets")->required();
   app.add_option("--run", options.run, "folder of the runs and the report")->required();
-  app.add_option("--methods", options.methods,
-                 "to run: some of the seven [all]; the report has all that are complete")
-      ->check(CLI::IsMember(pcrb_tools::paperMethods()));
-  app.add_option("--sequences", options.sequences,
-                 "sequences, data sets, or data_set/sequence, separated by blanks")
+  app.add_option("--method,--methods", options.methods,
+                 "methods to run, of the paper or of the plugin; the report has all that are "
+                 "complete [the paper's seven]");
+  app.add_option("--plugin", options.plugin, "shared library of the methods of your own");
+  app.add_option("--parameters", options.parameters,
+                 "YAML file of the parameters of the methods of your own");
+  app.add_option("--kind", options.kind, "kind of problems that methods of your own are given")
+      ->check(CLI::IsMember({"local", "global", "both"}))
+      ->capture_default_str();
+  app.add_option("--sequences", options.sequences, "sequences, data sets or data_set/sequence")
       ->capture_default_str();
   app.add_option("--subset", options.subset,
-                 "random problems per method, the same for all; 0 = all")
+                 "random problems per method, the same for all methods; 0 = all")
       ->check(CLI::Range(0, 100000000))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "of the subset")
+  app.add_option("--seed", options.seed, "seed of the subset")
       ->check(CLI::Range(0, 2147483647))
       ->capture_default_str();
-  app.add_option("--time-limit", options.time_limit, "s per problem")
+  app.add_option("--time-limit", options.time_limit, "seconds that one problem may take")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--jobs", options.jobs,
-                 "benchmarks at the same time; latencies are undisturbed with one only")
+                 "benchmarks at the same time; latencies are undisturbed only with one")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   pcrb_tools::ReportOptions report;
-  app.add_flag("!--no-figures", report.draw_figures, "no PNG and PDF figures, the page only");
+  app.add_flag("!--no-figures", report.draw_figures,
+               "leave out the PNG and PDF figures, which take most of the time");
   options.write_report = [&report](const std::vector<std::string>& runs,
                                    const std::string& output) {
     report.runs = runs;

@@ -15,53 +15,60 @@ struct Options {
   std::vector<double> sensor_in_body;
 };
 
-void addOptions(CLI::App& app, Options& options) {
-  auto& problems = options.problems;
+void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) {
   auto& tracking = options.tracking;
-  auto* file = app.add_option("problem_file", problems.problem_file,
-                              "<root>/<data set>/<sequence>_local.txt or _global.txt");
-  auto* sequence = app.add_option("--sequence", tracking.folder,
-                                  "<root>/<data set>/<sequence>: score a trajectory instead");
-  sequence->excludes(file);
-  app.add_option("--poses", problems.poses.path,
-                 "a bag, or a text of rows `id` and the first three rows of a 4 x 4 matrix, or "
-                 "`timestamp tx ty tz qx qy qz qw`")
-      ->required();
-  app.add_option("--topic", problems.poses.topic, "topic of the poses in a bag");
-  app.add_option("--map-frame", problems.poses.map_frame, "frame of the poses in a bag")
-      ->capture_default_str();
-  auto* run = app.add_option("--run", problems.run, "folder of the results of problems");
-  run->needs(file);
-  app.add_option("--key", problems.key, "key of a bag of problems")->needs(file);
-  app.add_option("--frame", options.frame,
-                 "of poses without a key: data_set (that of the clouds' files) or map (that in "
-                 "which the server hands clouds out; the same unless coordinates are large)")
-      ->check(CLI::IsMember({"data_set", "map"}))
-      ->needs(file)
-      ->capture_default_str();
-  app.add_option("--subset", problems.subset,
-                 "without a key: number of problems that the run draws")
-      ->needs(file);
-  app.add_option("--seed", problems.seed, "without a key: seed of that draw")->needs(file);
   app.add_option("--output", tracking.output, "folder of the results of a sequence")
       ->needs(sequence);
   app.add_option("--scans", tracking.scans,
                  "list that sequence_to_bag or replay wrote [timestamps are in the clouds' names, "
                  "poses in the clouds' frame]")
       ->needs(sequence);
-  app.add_option("--max-difference", tracking.max_difference, "s between a scan and its pose")
+  app.add_option("--max-difference", tracking.max_difference,
+                 "largest time between a scan and its pose, s")
       ->check(CLI::NonNegativeNumber)
       ->needs(sequence)
       ->capture_default_str();
-  app.add_option("--delta", tracking.delta, "number of scans that relative errors span")
+  app.add_option("--delta", tracking.delta, "number of scans over which relative errors are taken")
       ->check(CLI::PositiveNumber)
       ->needs(sequence)
       ->capture_default_str();
-  app.add_flag("--align", tracking.align, "APE after a rigid alignment")->needs(sequence);
+  app.add_flag("--align", tracking.align, "align the trajectory rigidly before the absolute errors")
+      ->needs(sequence);
   app.add_option("--sensor-in-body", options.sensor_in_body,
                  "x y z qx qy qz qw of the sensor where poses are those of a body")
       ->expected(7)
       ->needs(sequence);
+}
+
+void addOptions(CLI::App& app, Options& options) {
+  auto& problems = options.problems;
+  auto* file = app.add_option("problem_file", problems.problem_file,
+                              "<root>/<data set>/<sequence>_local.txt or _global.txt");
+  auto* sequence = app.add_option("--sequence", options.tracking.folder,
+                                  "<root>/<data set>/<sequence>: score a trajectory instead");
+  sequence->excludes(file);
+  app.add_option("--poses", problems.poses.path,
+                 "a bag, or a text of rows `id` and the first three rows of a 4 x 4 matrix, or "
+                 "`timestamp tx ty tz qx qy qz qw`")
+      ->required();
+  app.add_option("--topic", problems.poses.topic, "topic of the poses in the bag");
+  app.add_option("--map-frame", problems.poses.map_frame, "tf frame of the poses in the bag")
+      ->capture_default_str();
+  auto* run = app.add_option("--run", problems.run, "folder of the results of problems");
+  run->needs(file);
+  app.add_option("--key", problems.key, "key that problems_to_bag wrote with the bag")->needs(file);
+  app.add_option("--frame", options.frame,
+                 "frame of the poses, without a key: data_set (that of the clouds' files) or map "
+                 "(that in which the server publishes clouds; the same unless coordinates are "
+                 "large)")
+      ->check(CLI::IsMember({"data_set", "map"}))
+      ->needs(file)
+      ->capture_default_str();
+  app.add_option("--subset", problems.subset,
+                 "number of problems that were drawn, without a key; 0 = all")
+      ->needs(file);
+  app.add_option("--seed", problems.seed, "seed of that draw, without a key")->needs(file);
+  addTrackingOptions(app, sequence, options);
 }
 
 int score(Options& options) {

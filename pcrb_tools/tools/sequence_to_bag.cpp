@@ -12,29 +12,33 @@ int main(int argc, char** argv) {
   pcrb_tools::SequenceBagOptions options;
   double rate = 2.0;
   app.add_option("folder", options.sequence.folder, "<root>/<data set>/<sequence>")->required();
-  app.add_option("-o,--output", options.bag.output, "the bag")->required();
+  app.add_option("-o,--output", options.bag.output, "bag to write")->required();
   app.add_option("--rate", rate, "scans per second")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
-  app.add_option("--map", options.sequence.map_file, "a map in the sequence's frame [it grows]");
+  app.add_option("--map", options.sequence.map_file,
+                 "file of a map in the sequence's frame [a map that grows]");
   app.add_option("--map-leaf", options.sequence.map_leaf,
-                 "m, edge of the growing map's voxels [the data set's]")
+                 "edge of the growing map's voxels, m [what the data set says]")
       ->check(CLI::PositiveNumber);
   app.add_option("--map-points", options.sequence.map_points,
-                 "limit of the growing map, beyond which voxels double")
+                 "number of points of the growing map beyond which its voxels double")
       ->check(CLI::Range(1, 20'000'000))
       ->capture_default_str();
-  app.add_option("--exclude", options.sequence.excluded, "clouds that are no scans");
+  app.add_option("--exclude", options.sequence.excluded, "names of clouds that are no scans");
   bool no_truth = false;
   app.add_flag("--no-truth", no_truth,
                "only what a node under test may see: the map, the initial pose with the first "
                "scan, scans in their sensor's frame");
-  app.add_option("--scan-frame", options.sequence.scan_frame, "frame of the scans without truth")
+  app.add_option("--scan-frame", options.sequence.scan_frame,
+                 "tf frame of the scans, without truth")
       ->capture_default_str();
-  app.add_option("--map-frame", options.sequence.map_frame)->capture_default_str();
-  app.add_option("--scans", options.scans, "write which scan has which stamp, for score_poses");
-  app.add_flag("--compress", options.bag.compress, "LZ4");
-  app.add_flag("--force", options.bag.force, "replace an output that this tool did not make");
+  app.add_option("--map-frame", options.sequence.map_frame, "tf frame of the map")
+      ->capture_default_str();
+  app.add_option("--scans", options.scans,
+                 "list to write of which scan has which timestamp, for score_poses");
+  app.add_flag("--compress", options.bag.compress, "compress the bag by LZ4");
+  app.add_flag("--force", options.bag.force, "replace a bag that this tool did not make");
   return pcrb_tools::runTool(app, argc, argv, [&] {
     options.bag.period = 1.0 / rate;
     options.sequence.publish_ground_truth = !no_truth;

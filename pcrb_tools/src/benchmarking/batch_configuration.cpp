@@ -1,5 +1,3 @@
-#include "benchmarking/batch_configuration.hpp"
-
 #include <ros/package.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include "benchmarking/batch_tool.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"

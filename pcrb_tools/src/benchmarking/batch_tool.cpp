@@ -10,8 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "benchmarking/batch_configuration.hpp"
-#include "benchmarking/orphans.hpp"
+#include "benchmarking/child_process.hpp"
 #include "benchmarking/shard.hpp"
 #include "common/process.hpp"
 #include "common/progress.hpp"
@@ -57,12 +56,22 @@ class Batch {
   std::vector<Shard*> running_;
   std::vector<std::string> defects_;
   Clock::time_point start_ = Clock::now();
-  Progress progress_{"run", "problems", 0};
+  Progress progress_;
 };
 
+/// What is benchmarked, for people who watch: the method or the node, as far as arguments say it.
+std::string subjectOf(const BatchOptions& options) {
+  for (const std::string prefix : {"method:=", "node_launch:="}) {
+    for (const std::string& argument : options.arguments) {
+      if (argument.rfind(prefix, 0) == 0) return argument.substr(prefix.size());
+    }
+  }
+  return "run";
+}
+
 Batch::Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOptions& options)
-    : jobs_(static_cast<std::size_t>(options.jobs)) {
-  adoptOrphans();
+    : jobs_(static_cast<std::size_t>(options.jobs)), progress_(subjectOf(options), "problems", 0) {
+  becomeSubreaper();
   for (int i = 0; i < settings->shards; ++i) {
     if (!options.only || *options.only == i) {
       shards_.push_back(std::make_unique<Shard>(settings, i));
@@ -77,7 +86,7 @@ Batch::Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOp
 Batch::~Batch() {
   stop();
   shards_.clear();
-  endOrphans({});
+  endDescendants({});
 }
 
 void Batch::run() {
@@ -122,7 +131,7 @@ void Batch::endLeftNodes() {
   for (Shard* shard : running_) {
     if (!shard->hasEnded()) at_work.insert(shard->pid());
   }
-  if (at_work.size() < running_.size()) endOrphans(at_work);
+  if (at_work.size() < running_.size()) endDescendants(at_work);
 }
 
 void Batch::reap() {

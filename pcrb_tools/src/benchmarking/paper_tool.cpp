@@ -1,9 +1,9 @@
-#include "benchmarking/paper_tool.hpp"
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "benchmarking/batch_tool.hpp"
 #include "common/tool_main.hpp"
@@ -11,41 +11,50 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/run/results_store.hpp"
 #include "pcrb_core/run/run_info.hpp"
-#include "report/report_tool.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 struct Experiment {
-  const char* method;
-  const char* kind;
+  std::string method;
+  std::string kind;
+  bool is_own = false;  ///< a method of the user's plugin
 };
 
 /// The paper gives global methods the global problems, without an initial guess.
-constexpr std::array<Experiment, 7> kExperiments{{{"icp", "local"},
-                                                  {"gicp", "local"},
-                                                  {"ndt", "local"},
-                                                  {"ppcr", "local"},
-                                                  {"ransac", "global"},
-                                                  {"fgr", "global"},
-                                                  {"teaser", "global"}}};
+const std::array<Experiment, 7> kExperiments{{{"icp", "local"},
+                                              {"gicp", "local"},
+                                              {"ndt", "local"},
+                                              {"ppcr", "local"},
+                                              {"ransac", "global"},
+                                              {"fgr", "global"},
+                                              {"teaser", "global"}}};
 
-std::vector<Experiment> chosen(const std::vector<std::string>& methods) {
-  if (methods.empty()) return {kExperiments.begin(), kExperiments.end()};
+Experiment experimentOf(const std::string& method, const PaperOptions& options) {
+  const auto* found = std::find_if(kExperiments.begin(), kExperiments.end(),
+                                   [&](const Experiment& e) { return e.method == method; });
+  if (found != kExperiments.end()) return *found;
+  if (!options.plugin.empty()) return {method, options.kind, true};
+  throw pcrb::InvalidParameter(
+      "found method `" + method +
+      "`, expected icp, gicp, ndt, ppcr, ransac, fgr or teaser, or a plugin that has it");
+}
+
+std::vector<Experiment> chosen(const PaperOptions& options) {
+  if (options.methods.empty()) return {kExperiments.begin(), kExperiments.end()};
   std::vector<Experiment> experiments;
-  for (const std::string& method : methods) {
-    const auto* found = std::find_if(kExperiments.begin(), kExperiments.end(),
+  for (const std::string& method : options.methods) {
+    const bool is_new = std::none_of(experiments.begin(), experiments.end(),
                                      [&](const Experiment& e) { return e.method == method; });
-    if (found == kExperiments.end()) {
-      throw pcrb::InvalidParameter("found method `" + method +
-                                   "`, expected icp, gicp, ndt, ppcr, ransac, fgr or teaser");
-    }
-    const bool is_new =
-        std::none_of(experiments.begin(), experiments.end(),
-                     [&](const Experiment& e) { return e.method == found->method; });
-    if (is_new) experiments.push_back(*found);
+    if (is_new) experiments.push_back(experimentOf(method, options));
   }
   return experiments;
+}
+
+std::string joinedSequences(const std::vector<std::string>& sequences) {
+  std::string text;
+  for (const std::string& sequence : sequences) text += (text.empty() ? "" : " ") + sequence;
+  return text;
 }
 
 BatchOptions batchOf(const PaperOptions& options, const Experiment& experiment) {
@@ -53,12 +62,15 @@ BatchOptions batchOf(const PaperOptions& options, const Experiment& experiment) 
   batch.run = options.run + "/" + experiment.method;
   batch.jobs = options.jobs;
   batch.arguments = {"root:=" + options.root,
-                     "sequences:=" + options.sequences,
-                     std::string("kind:=") + experiment.kind,
-                     std::string("method:=") + experiment.method,
+                     "sequences:=" + joinedSequences(options.sequences),
+                     "kind:=" + experiment.kind,
+                     "method:=" + experiment.method,
                      "subset:=" + std::to_string(options.subset),
                      "seed:=" + std::to_string(options.seed),
                      "time_limit:=" + pcrb::formatShortest(options.time_limit)};
+  if (!experiment.is_own) return batch;
+  batch.arguments.push_back("plugin:=" + options.plugin);
+  if (!options.parameters.empty()) batch.arguments.push_back("parameters:=" + options.parameters);
   return batch;
 }
 
@@ -70,11 +82,16 @@ bool isComplete(const std::string& run) {
   return planned && *planned == store.count();
 }
 
-/// The complete runs of all experiments, those of earlier calls too.
+/// The complete runs of all experiments, those of earlier calls too, and of the user's own methods.
 std::vector<std::string> completeRuns(const PaperOptions& options,
+                                      const std::vector<Experiment>& experiments,
                                       const std::vector<std::string>& failed) {
+  std::vector<std::string> methods = paperMethods();
+  for (const Experiment& experiment : experiments) {
+    if (experiment.is_own) methods.push_back(experiment.method);
+  }
   std::vector<std::string> runs;
-  for (const std::string& method : paperMethods()) {
+  for (const std::string& method : methods) {
     const std::string run = options.run + "/" + method;
     const bool has_failed = std::find(failed.begin(), failed.end(), method) != failed.end();
     if (!has_failed && isComplete(run)) runs.push_back(run);
@@ -86,19 +103,20 @@ std::vector<std::string> completeRuns(const PaperOptions& options,
 
 std::vector<std::string> paperMethods() {
   std::vector<std::string> methods;
-  for (const Experiment& experiment : kExperiments) methods.emplace_back(experiment.method);
+  for (const Experiment& experiment : kExperiments) methods.push_back(experiment.method);
   return methods;
 }
 
 int runPaperTool(const PaperOptions& options) {
   std::vector<std::string> failed;
-  for (const Experiment& experiment : chosen(options.methods)) {
+  const std::vector<Experiment> experiments = chosen(options);
+  for (const Experiment& experiment : experiments) {
     std::cout << experiment.method << ", " << experiment.kind << " problems:" << std::endl;
     if (runBatchTool(batchOf(options, experiment)) != kSuccess) {
-      failed.emplace_back(experiment.method);
+      failed.push_back(experiment.method);
     }
   }
-  const std::vector<std::string> runs = completeRuns(options, failed);
+  const std::vector<std::string> runs = completeRuns(options, experiments, failed);
   if (!runs.empty()) {
     options.write_report(runs, options.run + "/report");
     std::cout << "report: " << options.run << "/report/index.html" << std::endl;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 5> kComplaints{
+constexpr std::array<const char*, 5> kErrorPrefixes{
     "benchmark_server: ", "localization_bridge: ", "node_supervisor: ", "cannot start",
     "RLException"};
 
@@ -131,12 +131,12 @@ std::string Shard::lastError() const {
   std::ifstream log(logFile());
   log.seekg(log_start_);
   std::string line;
-  std::string complaint;
+  std::string error;
   while (std::getline(log, line)) {
     const auto begins = [&line](const char* start) { return line.rfind(start, 0) == 0; };
-    if (std::any_of(kComplaints.begin(), kComplaints.end(), begins)) complaint = line;
+    if (std::any_of(kErrorPrefixes.begin(), kErrorPrefixes.end(), begins)) error = line;
   }
-  return complaint.empty() ? "; see " + logFile() : "; " + complaint + " (" + logFile() + ")";
+  return error.empty() ? "; see " + logFile() : "; " + error + " (" + logFile() + ")";
 }
 
 }  // namespace pcrb_tools

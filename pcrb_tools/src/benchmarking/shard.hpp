@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "benchmarking/child_process.hpp"
-#include "benchmarking/reserved_port.hpp"
 #include "common/process.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/run/results_store.hpp"

@@ -45,6 +45,27 @@ void requireAbsolutePaths(const CLI::App& app, int argc, char** argv) {
   }
 }
 
+std::string joinedNames(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
+}
+
+/// All options, for programs in front of this one: a line each, with tabs between long names, short
+/// names, the name of its place, type and limits, default, 1 if it must be given, the largest
+/// number of words that follow it, and the help.
+int describeOptions(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option == app.get_help_ptr()) continue;
+    std::cout << joinedNames(option->get_lnames()) << '\t' << joinedNames(option->get_snames())
+              << '\t' << (option->get_positional() ? option->get_name(true) : "") << '\t'
+              << option->get_type_name() << '\t' << option->get_default_str() << '\t'
+              << option->get_required() << '\t' << option->get_items_expected_max() << '\t'
+              << option->get_description() << '\n';
+  }
+  return kSuccess;
+}
+
 int complain(const std::string& tool, std::string what, int status) {
   std::replace(what.begin(), what.end(), '\n', ' ');
   std::cerr << tool << ": " << what << std::endl;
@@ -74,6 +95,7 @@ bool isKept(const pcrb::DerivedFile& output, bool force) {
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   const std::string tool = toolName(argc, argv);
   app.name(tool);
+  if (argc == 2 && std::string_view(argv[1]) == "--describe") return describeOptions(app);
   try {
     app.parse(argumentsForCli(argc, argv));
     requireAbsolutePaths(app, argc, argv);

@@ -8,8 +8,7 @@
 #include "common/process.hpp"
 #include "common/progress.hpp"
 #include "common/tool_main.hpp"
-#include "ground_truth/pair_evaluator.hpp"
-#include "ground_truth/sequence_accuracy.hpp"
+#include "ground_truth/pair_evaluation.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
@@ -23,7 +22,8 @@ namespace fs = std::filesystem;
 using pcrb::SequenceFiles;
 
 bool isNamed(const SequenceFiles& files, const std::string& name) {
-  return name == files.data_set || name == files.data_set + "/" + files.sequence;
+  return name == "all" || name == files.data_set || name == files.sequence ||
+         name == files.data_set + "/" + files.sequence;
 }
 
 std::vector<SequenceFiles> findWanted(const GroundTruthOptions& options) {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "ground_truth/sequence_accuracy.hpp"
+#include "ground_truth/ground_truth_tool.hpp"
 #include "pcrb_core/io/number.hpp"
 
 namespace pcrb_tools {

@@ -1,7 +1,6 @@
-#include "ground_truth/sequence_accuracy.hpp"
-
 #include <map>
 
+#include "ground_truth/ground_truth_tool.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
 

@@ -1,14 +1,13 @@
-#include "report/catalog.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include "pcrb_core/problem/dataset.hpp"
+#include "report/published.hpp"
 
 namespace pcrb_tools {
 namespace {
 
-struct Sequence {
+struct CatalogSequence {
   const char* name;
   const char* data_set;
   const char* environment;
@@ -18,7 +17,7 @@ struct Sequence {
 /// The paper's sequences in the order of its tables. Environment and structure are this suite's own
 /// assignment, from what the places are known to be; they were not checked against the paper's
 /// Tables 2 and 3, and the report says so.
-constexpr std::array<Sequence, 15> kSequences{{
+constexpr std::array<CatalogSequence, 15> kCatalog{{
     {"plain", "eth", "outdoor", "unstructured"},
     {"stairs", "eth", "indoor and outdoor", "structured"},
     {"apartment", "eth", "indoor", "structured"},
@@ -36,22 +35,23 @@ constexpr std::array<Sequence, 15> kSequences{{
     {"urban05", "kaist", "outdoor", "structured"},
 }};
 
-const Sequence* find(const std::string& name) {
-  const auto* found = std::find_if(kSequences.begin(), kSequences.end(),
-                                   [&](const Sequence& sequence) { return sequence.name == name; });
-  return found == kSequences.end() ? nullptr : found;
+const CatalogSequence* findInCatalog(const std::string& name) {
+  const auto* found =
+      std::find_if(kCatalog.begin(), kCatalog.end(),
+                   [&](const CatalogSequence& sequence) { return sequence.name == name; });
+  return found == kCatalog.end() ? nullptr : found;
 }
 
 }  // namespace
 
 std::size_t publishedPlace(const std::string& sequence) {
-  const Sequence* known = find(sequence);
-  return known == nullptr ? kSequences.size() : static_cast<std::size_t>(known - kSequences.data());
+  const CatalogSequence* known = findInCatalog(sequence);
+  return known == nullptr ? kCatalog.size() : static_cast<std::size_t>(known - kCatalog.data());
 }
 
 std::map<std::string, std::string> knownSequences(const std::string& root) {
   std::map<std::string, std::string> data_sets;
-  for (const Sequence& sequence : kSequences) data_sets[sequence.name] = sequence.data_set;
+  for (const CatalogSequence& sequence : kCatalog) data_sets[sequence.name] = sequence.data_set;
   if (root.empty()) return data_sets;
   for (const pcrb::SequenceFiles& files : pcrb::findSequences(root)) {
     data_sets.emplace(files.sequence, files.data_set);
@@ -60,11 +60,11 @@ std::map<std::string, std::string> knownSequences(const std::string& root) {
 }
 
 bool isInPaper(const std::string& data_set, const std::string& sequence) {
-  const Sequence* known = find(sequence);
+  const CatalogSequence* known = findInCatalog(sequence);
   return known != nullptr && data_set == known->data_set;
 }
 
-std::size_t paperSequenceCount() { return kSequences.size(); }
+std::size_t paperSequenceCount() { return kCatalog.size(); }
 
 std::vector<std::string> characteristicsOf(const std::string& root, const std::string& data_set,
                                            const std::string& sequence) {
@@ -74,8 +74,8 @@ std::vector<std::string> characteristicsOf(const std::string& root, const std::s
     if (!word.empty() && is_new) words.push_back(word);
   };
   if (isInPaper(data_set, sequence)) {
-    add(find(sequence)->environment);
-    add(find(sequence)->structure);
+    add(findInCatalog(sequence)->environment);
+    add(findInCatalog(sequence)->structure);
   }
   const pcrb::Dataset dataset = pcrb::loadDataset(root.empty() ? "/nonexistent" : root, data_set);
   add(dataset.sensor);

@@ -1,11 +1,9 @@
-#include "report/charts.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
-#include "report/attempts.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -16,11 +14,13 @@ constexpr std::size_t kQuantileBins = 8;
 
 Json solvedCurves(const Section& section, const std::vector<double>& thresholds) {
   Json curves = Json::array();
-  for (const Entry* entry : section.entries) {
+  std::vector<const Entry*> entries = section.entries;
+  if (section.baseline) entries.push_back(&*section.baseline);
+  for (const Entry* entry : entries) {
     Json curve;
     curve["method"] = entry->method;
     curve["fractions"] = pcrb::fractionSolved(
-        attemptsOf(select(*entry, *section.at({"total"}).front())), thresholds);
+        outcomesForSuccess(select(*entry, *section.at({"total"}).front())), thresholds);
     curves.push_back(curve);
   }
   return curves;

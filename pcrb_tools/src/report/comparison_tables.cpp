@@ -1,5 +1,3 @@
-#include "report/comparison_tables.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,6 +5,7 @@
 #include "pcrb_core/evaluation/rank_tests.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "report/published.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -57,6 +56,18 @@ Json better(const Comparison& comparison, double corrected_p) {
   return is_a ? comparison.a->method : comparison.b->method;
 }
 
+/// Whether the test could reject at all: the smallest p of so many pairs is 2 / 2^n, which Holm's
+/// correction multiplies by the size of the family.
+bool canReject(std::size_t pairs, std::size_t family) {
+  const double smallest_p = 2.0 * std::pow(0.5, static_cast<double>(pairs));
+  return smallest_p * static_cast<double>(family) < kSignificance;
+}
+
+std::string verdictOf(const Json& winner, std::size_t pairs, std::size_t family) {
+  if (!winner.is_null()) return winner.get<std::string>() + " is better";
+  return canReject(pairs, family) ? "no difference shown" : "too few pairs to tell";
+}
+
 void addFamily(const Section& section, const std::vector<const Selection*>& selections,
                Table& table) {
   std::vector<Comparison> family;
@@ -75,8 +86,7 @@ void addFamily(const Section& section, const std::vector<const Selection*>& sele
   for (std::size_t i = 0; i < family.size(); ++i) {
     const Comparison& row = family[i];
     const Json winner = better(row, corrected[i]);
-    const std::string verdict =
-        winner.is_null() ? "no difference shown" : winner.get<std::string>() + " is better";
+    const std::string verdict = verdictOf(winner, row.pairs, family.size());
     table.rows.push_back({row.a->method, row.b->method, row.selection->name, row.problems,
                           row.pairs, row.test.pseudomedian, row.test.p_value, corrected[i], winner,
                           verdict});

@@ -1,5 +1,3 @@
-#include "report/detail_tables.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +5,7 @@
 #include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/io/number.hpp"
-#include "report/attempts.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -75,11 +73,11 @@ Table recallTable(const Section& section, const ReportOptions& options) {
   }
   for (const Entry* entry : section.entries) {
     for (const Selection& selection : section.selections) {
-      const auto attempts = attemptsOf(select(*entry, selection));
-      if (attempts.empty()) continue;
-      std::vector<Json> row{entry->method, selection.name, attempts.size()};
+      const auto outcomes = outcomesForSuccess(select(*entry, selection));
+      if (outcomes.empty()) continue;
+      std::vector<Json> row{entry->method, selection.name, outcomes.size()};
       for (const auto& [translation, degrees] : options.recall_limits) {
-        row.push_back(number(pcrb::registrationRecall(attempts, translation, degrees * kDegree)));
+        row.push_back(number(pcrb::registrationRecall(outcomes, translation, degrees * kDegree)));
       }
       if (!row.back().is_null()) table.rows.push_back(std::move(row));
     }

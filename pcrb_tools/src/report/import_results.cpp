@@ -1,5 +1,3 @@
-#include "report/import_results.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +7,7 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
+#include "report/entries.hpp"
 
 namespace pcrb_tools {
 namespace {

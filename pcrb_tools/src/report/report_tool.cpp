@@ -7,13 +7,41 @@
 
 #include "common/process.hpp"
 #include "pcrb_core/error.hpp"
+#include "report/details.hpp"
+#include "report/entries.hpp"
+#include "report/report_writer.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 constexpr const char* kPython = "/usr/bin/python3";
 
+void addOverlaps(ProblemDetails& details, Section& section) {
+  for (const Selection* selection : section.at({"sequence"})) {
+    const auto& [data_set, sequence] = *selection->sequences.begin();
+    auto overlaps = details.overlapsOf(data_set, sequence, section.kind);
+    if (!overlaps.empty()) section.overlaps[{data_set, sequence}] = std::move(overlaps);
+  }
+}
+
 }  // namespace
+
+void writeReportData(const ReportOptions& options) {
+  std::vector<GroundTruth> accuracies;
+  if (!options.ground_truth.empty()) accuracies = readGroundTruth(options.ground_truth);
+  std::vector<Entry> entries = loadEntries(options);
+  DetailsByRoot details = addDetails(options, accuracies, entries);
+  const std::string root = details.empty() ? std::string() : details.begin()->first;
+  std::vector<Section> sections = makeSections(entries, root);
+  for (Section& section : sections) {
+    if (details.size() == 1) addOverlaps(details.begin()->second, section);
+  }
+  removeFormerFiles(options.output);
+  ReportWriter writer(options);
+  for (const Section& section : sections) writer.addSection(section, accuracies);
+  writer.finish(summaryTable(sections));
+}
 
 void runReportTool(const ReportOptions& options) {
   writeReportData(options);

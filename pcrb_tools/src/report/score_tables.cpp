@@ -1,13 +1,11 @@
-#include "report/score_tables.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "pcrb_core/evaluation/statistics.hpp"
-#include "report/own_problems.hpp"
 #include "report/published.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -31,16 +29,20 @@ std::vector<Json> scoreRow(const Entry& entry, const Selection& selection,
                            const ReportOptions& options) {
   const Problems problems = select(entry, selection);
   std::vector<Json> row{entry.method, selection.name, selection.level, problems.size()};
-  for (const std::size_t count : outcomesOf(problems)) row.emplace_back(count);
+  for (const std::size_t count : outcomesOf(problems)) {
+    row.push_back(entry.method == kBaseline ? Json(nullptr) : Json(count));
+  }
   appendStatistics(pcrb::describe(errorsOf(problems)), row);
   pcrb::BootstrapOptions bootstrap;
   bootstrap.resamples = options.resamples;
   bootstrap.seed = options.seed;
   const auto units = unitsOf(problems);
+  const std::size_t pairs = units.empty() ? 0 : *std::max_element(units.begin(), units.end()) + 1;
   const auto interval = pcrb::medianInterval(errorsOf(problems), units, bootstrap);
-  row.push_back(number(interval.low));
-  row.push_back(number(interval.high));
-  row.emplace_back(units.empty() ? 0 : *std::max_element(units.begin(), units.end()) + 1);
+  for (const double end : {interval.low, interval.high}) {
+    row.push_back(pairs < kFewestPairs ? Json(nullptr) : number(end));
+  }
+  row.emplace_back(pairs);
   return row;
 }
 
@@ -68,29 +70,20 @@ bool hasBothKinds(const std::vector<Section>& sections, const std::string& metho
   return kinds > 1;
 }
 
-/// Median over a sequence's sources of the metric of a translation of 1 m.
-std::optional<double> errorPerMetre(const Section& section, const Selection& selection) {
-  std::vector<double> values;
-  for (const Entry* entry : section.entries) {
-    for (const ScoredProblem* problem : select(*entry, selection)) {
-      if (problem->error_per_metre) values.push_back(*problem->error_per_metre);
-    }
-  }
-  if (values.empty()) return std::nullopt;
-  return pcrb::describe(std::move(values)).median;
-}
-
 }  // namespace
 
 Table scoreTable(const Section& section, const ReportOptions& options) {
-  Table table{"scores",
-              "Errors and outcomes",
-              "median is the score; low and high are the ends of its 95 % bootstrap interval over "
-              "pairs of clouds; stddev has n in the denominator; a problem without a valid reply "
-              "counts with its initial misalignment. Groups are by characteristics that this suite "
-              "or a dataset.yaml assigns, not by the paper's Tables 2 and 3.",
-              {{"method"}, {"selection"}, {"level"}, {"problems", Format::kCount}},
-              {}};
+  Table table{
+      "scores",
+      "Errors and outcomes",
+      "median is the score; low and high are the ends of its 95 % bootstrap interval over "
+      "pairs of clouds, of which there must be 6; stddev has n in the denominator; a problem "
+      "without a valid reply "
+      "counts with its initial misalignment, and `do nothing` is that of all problems: a method "
+      "above it makes things worse. Groups are by characteristics that this suite "
+      "or a dataset.yaml assigns, not by the paper's Tables 2 and 3.",
+      {{"method"}, {"selection"}, {"level"}, {"problems", Format::kCount}},
+      {}};
   for (std::size_t i = 0; i < 5; ++i) {
     table.columns.push_back({pcrb::toString(static_cast<pcrb::Outcome>(i)), Format::kCount});
   }
@@ -104,6 +97,12 @@ Table scoreTable(const Section& section, const ReportOptions& options) {
       if (!select(*entry, selection).empty()) {
         table.rows.push_back(scoreRow(*entry, selection, options));
       }
+    }
+  }
+  if (!section.baseline) return table;
+  for (const Selection& selection : section.selections) {
+    if (!select(*section.baseline, selection).empty()) {
+      table.rows.push_back(scoreRow(*section.baseline, selection, options));
     }
   }
   return table;
@@ -158,28 +157,6 @@ Table publishedTable(const Section& section) {
     std::vector<Json> row{published.method, published.sequence};
     for (const double value : published.statistics) row.emplace_back(value);
     table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-Table groundTruthTable(const Section& section, const std::vector<GroundTruth>& accuracies) {
-  Table table{"ground_truth",
-              "Accuracy of the ground truth",
-              "Mean and standard deviation in m, as evaluate_ground_truth finds them. floor is the "
-              "error of a translation by the mean: methods cannot be told apart below it.",
-              {{"data set"}, {"sequence"}},
-              {}};
-  for (const char* name : {"mean", "stddev", "floor"}) {
-    table.columns.push_back({name, Format::kError});
-  }
-  for (const Selection* selection : section.at({"sequence"})) {
-    const auto& [data_set, sequence] = *selection->sequences.begin();
-    for (const GroundTruth& accuracy : accuracies) {
-      if (accuracy.data_set != data_set || accuracy.sequence != sequence) continue;
-      const auto scale = errorPerMetre(section, *selection);
-      table.rows.push_back({data_set, selection->name, accuracy.mean, accuracy.stddev,
-                            scale ? Json(accuracy.mean * *scale) : Json(nullptr)});
-    }
   }
   return table;
 }

@@ -1,11 +1,11 @@
 #include "report/section.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <tuple>
 
-#include "report/catalog.hpp"
-#include "report/own_problems.hpp"
+#include "report/published.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -87,6 +87,25 @@ void addSelections(const std::string& root, Section& section) {
   addTotals(sequences, section.selections);
 }
 
+/// Each problem of some entry once, with its initial misalignment as its error.
+std::optional<Entry> makeBaseline(const std::vector<const Entry*>& entries) {
+  std::map<pcrb::ProblemKey, ScoredProblem> problems;
+  for (const Entry* entry : entries) {
+    for (const ScoredProblem& problem : entry->problems) {
+      if (!problem.initial_misalignment) continue;
+      ScoredProblem& untouched = problems.emplace(problem.key, problem).first->second;
+      untouched.outcome = pcrb::Outcome::kReplied;
+      untouched.error = *untouched.initial_misalignment;
+    }
+  }
+  if (problems.empty()) return std::nullopt;
+  Entry baseline;
+  baseline.method = kBaseline;
+  baseline.kind = entries.front()->kind;
+  for (auto& [key, problem] : problems) baseline.problems.push_back(std::move(problem));
+  return baseline;
+}
+
 }  // namespace
 
 std::vector<const Selection*> Section::at(const std::set<std::string>& levels) const {
@@ -108,6 +127,7 @@ std::vector<Section> makeSections(const std::vector<Entry>& entries, const std::
     if (section.entries.empty()) continue;
     addSelections(root, section);
     section.own_problems = findOwnProblems(section.entries, root);
+    section.baseline = makeBaseline(section.entries);
     sections.push_back(std::move(section));
   }
   return sections;
@@ -157,6 +177,17 @@ std::string sequenceName(const Section& section, const pcrb::ProblemKey& key) {
     if (selection->sequences.count({key.data_set, key.sequence}) > 0) return selection->name;
   }
   return key.sequence;
+}
+
+std::vector<pcrb::ProblemOutcome> outcomesForSuccess(const Problems& problems) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  std::vector<pcrb::ProblemOutcome> outcomes;
+  for (const ScoredProblem* problem : problems) {
+    outcomes.push_back({problem->isAnswered(), problem->error,
+                        problem->rotation_error.value_or(kNaN),
+                        problem->translation_error.value_or(kNaN)});
+  }
+  return outcomes;
 }
 
 }  // namespace pcrb_tools

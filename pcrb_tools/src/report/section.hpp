@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "pcrb_core/evaluation/distributions.hpp"
 #include "report/scored_problem.hpp"
 
 namespace pcrb_tools {
@@ -23,6 +25,9 @@ struct Section {
   pcrb::Kind kind = pcrb::Kind::kLocal;
   std::vector<const Entry*> entries;
   std::vector<Selection> selections;  ///< sequences, data sets, groups, total
+  /// The entries' problems as a method leaves them that returns the initial guess: what a score is
+  /// worth. None where no initial misalignment is known.
+  std::optional<Entry> baseline;
   /// Of all pairs of clouds in the problem file of a sequence (data set, sequence), where known.
   std::map<std::pair<std::string, std::string>, std::vector<double>> overlaps;
   /// Sequences (data set, sequence) whose problems are not the published ones in some entry,
@@ -32,6 +37,9 @@ struct Section {
   /// Selections of some levels.
   std::vector<const Selection*> at(const std::set<std::string>& levels) const;
 };
+
+/// Name of the baseline among methods.
+constexpr const char* kBaseline = "do nothing";
 
 /// One section per kind that has entries. The entries must outlive it.
 ///
@@ -59,5 +67,24 @@ ProblemCounts countProblems(const Section& section, const Selection& selection);
 /// The name of a sequence in a section: with its data set where two data sets have one of that
 /// name.
 std::string sequenceName(const Section& section, const pcrb::ProblemKey& key);
+
+/// The selected problems as success is counted.
+std::vector<pcrb::ProblemOutcome> outcomesForSuccess(const Problems& problems);
+
+/// Sequences (data set, sequence) of which some entry has problems that are not the published ones,
+/// whatever their name: a tool drew them, as the run table or the problem file's side file says; or
+/// an id is none that the published files have.
+///
+/// @param root  data set folder where problem files are looked for; may be empty.
+std::set<std::pair<std::string, std::string>> findOwnProblems(
+    const std::vector<const Entry*>& entries, const std::string& root);
+
+/// Names of the sequences in own_problems, separated by commas.
+std::string namesOfOwnProblems(const Section& section);
+
+/// The row of the paper's tables that may stand beside a selection: its sequence's name or `total`;
+/// empty if there is none or the problems are others. The total is one of all published sequences
+/// and stands only beside theirs.
+std::string publishedRowOf(const Section& section, const Selection& selection);
 
 }  // namespace pcrb_tools

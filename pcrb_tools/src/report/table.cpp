@@ -1,5 +1,6 @@
 #include "report/table.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pcrb_core/io/number.hpp"
@@ -28,10 +29,22 @@ const char* toString(Format format) {
   return "text";
 }
 
-std::string errorText(double value) {
+/// Three significant digits, and never 0.000 for what is not 0.
+std::string threeDigits(double value) {
   constexpr double kLargestFixed = 1e5;
-  return std::abs(value) < kLargestFixed ? pcrb::formatFixed(value, 4)
-                                         : pcrb::formatScientific(value, 2);
+  constexpr double kSmallestFixed = 1e-4;
+  if (value == 0.0) return "0";
+  const std::string rounded = pcrb::formatScientific(value, 2);  // 9.999 has become 1.00e+01
+  const double size = std::abs(*pcrb::parseDouble(rounded));
+  if (size < kSmallestFixed || size >= kLargestFixed) return rounded;
+  const int decimals = 2 - static_cast<int>(std::floor(std::log10(size)));
+  return pcrb::formatFixed(value, std::max(0, decimals));
+}
+
+/// Three decimals, as most fractions need them; three digits where these would all be 0.
+std::string fractionText(double value) {
+  constexpr double kSmallest = 0.0005;
+  return std::abs(value) < kSmallest ? threeDigits(value) : pcrb::formatFixed(value, 3);
 }
 
 std::string probabilityText(double value) {
@@ -97,10 +110,9 @@ std::string cellText(const Json& cell, Format format) {
   if (format == Format::kCount) return std::to_string(cell.get<std::int64_t>());
   const double value = cell.get<double>();
   if (format == Format::kProbability) return probabilityText(value);
-  if (format == Format::kFraction) return pcrb::formatFixed(value, 3);
+  if (format == Format::kFraction) return fractionText(value);
   if (format == Format::kPublished) return pcrb::formatFixed(value, 2);
-  if (format == Format::kSeconds) return pcrb::formatFixed(value, 3);
-  return errorText(value);
+  return threeDigits(value);
 }
 
 std::string toCsv(const Table& table) {

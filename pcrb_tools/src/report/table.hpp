@@ -28,7 +28,8 @@ struct Table {
 /// A finite number, else null.
 Json number(double value);
 
-/// A cell as people read it; `-` where there is no value.
+/// A cell as people read it, errors and times with three significant digits; `-` where there is no
+/// value.
 std::string cellText(const Json& cell, Format format);
 
 std::string toCsv(const Table& table);       ///< header and rows, RFC 4180

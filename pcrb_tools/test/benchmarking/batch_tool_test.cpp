@@ -4,8 +4,7 @@
 
 #include <fstream>
 
-#include "benchmarking/batch_configuration.hpp"
-#include "benchmarking/reserved_port.hpp"
+#include "benchmarking/child_process.hpp"
 #include "pcrb_core/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

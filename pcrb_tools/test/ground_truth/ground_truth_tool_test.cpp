@@ -8,12 +8,12 @@
 #include <sstream>
 
 #include "conversion/converters.hpp"
-#include "ground_truth/pair_file.hpp"
+#include "ground_truth/pair_evaluation.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/problem/problem.hpp"
-#include "report/ground_truth.hpp"
+#include "report/details.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"
 #include "support/sample_log_support.hpp"
@@ -179,8 +179,10 @@ TEST_F(WrongGroundTruth, OfPairsThatCannotBeAlignedIsUnknownAndStopsNoOther) {
   ASSERT_EQ(floors.size(), 1U);
   EXPECT_EQ(floors.front().sequence, "apartment");
 
-  options_.sequences = {"eth/hut"};
-  PCRB_EXPECT_ERROR(pcrb::InvalidProblem, run(), "no pair that could be aligned");
+  for (const std::string name : {"eth/hut", "hut"}) {
+    options_.sequences = {name};
+    PCRB_EXPECT_ERROR(pcrb::InvalidProblem, run(), "no pair that could be aligned");
+  }
 }
 
 TEST(GroundTruthTool, RefusesAFileThatItDidNotMake) {

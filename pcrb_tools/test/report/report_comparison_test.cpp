@@ -114,12 +114,41 @@ TEST_F(ReportComparisonTest,
   EXPECT_FALSE(has(page(), ", published</th>"));
 }
 
-TEST_F(ReportComparisonTest, MarksIntervalsThatLeaveTheAxisOfTheBars) {
-  addImport("torn", 11, [](std::size_t i) { return i < 6 ? 1.0 : 9.0; });
-  EXPECT_TRUE(has(page(), "class=\"beyond\">▸ 9.000</text>"));
-  options_.imports.clear();
-  addImport("whole", 11, [](std::size_t i) { return 1.0 + 0.01 * static_cast<double>(i); });
+TEST_F(ReportComparisonTest, DrawsIntervalsOverDecadesWhole) {
+  addImport("torn", 11, [](std::size_t i) { return i < 6 ? 0.01 : 9.0; });
+  EXPECT_TRUE(has(page(), "torn, plain: median 0.0100, 95 % interval 0.01 – 9.00"));
   EXPECT_FALSE(has(page(), "class=\"beyond\""));
+}
+
+TEST_F(ReportComparisonTest, GivesNoIntervalNoMarkAndNoVerdictForFewerPairsThanATestNeeds) {
+  addImport("good", 5, [](std::size_t) { return 0.1; });
+  addImport("bad", 5, [](std::size_t) { return 1.0; });
+  std::string text = page();
+  EXPECT_FALSE(has(text, "class=\"best\""));
+  EXPECT_TRUE(has(text, "good and bad: too few pairs to tell"));
+  EXPECT_TRUE(has(text, "good, plain: median 0.100, too few pairs for an interval"));
+  EXPECT_TRUE(has(read(options_.output + "/report.md"), "too few pairs to tell"));
+  EXPECT_EQ(readCsv(options_.output + "/tables/local_scores.csv")[0].at("low"), "");
+
+  options_.imports.clear();
+  addImport("good", 6, [](std::size_t) { return 0.1; });
+  addImport("bad", 6, [](std::size_t) { return 1.0; });
+  text = page();
+  EXPECT_TRUE(has(text, "class=\"best\""));
+  EXPECT_TRUE(has(text, "good is better than bad"));
+}
+
+TEST_F(ReportComparisonTest, ShowsBesideTheMethodsWhatDoingNothingScores) {
+  options_.runs = {addRun("good", 0.1), addRun("flaky", 0.2, 4)};
+  const std::string text = page();
+  EXPECT_TRUE(has(text, "<th>good</th><th>flaky</th><th>do nothing</th>"));
+  EXPECT_TRUE(has(text, "<td class=\"untouched\">1.00</td>"));
+  const Rows rows = readCsv(options_.output + "/tables/local_scores.csv");
+  EXPECT_EQ(rows.back().at("method"), "do nothing");
+  EXPECT_EQ(rows.back().at("median"), "1");
+  EXPECT_EQ(rows.back().at("problems"), "40");
+  EXPECT_EQ(rows.back().at("replied"), "");
+  EXPECT_FALSE(has(read(options_.output + "/tables/local_comparisons.csv"), "do nothing"));
 }
 
 }  // namespace

@@ -26,11 +26,26 @@ TEST(ReportTable, IsRoundedAndEscapedInMarkdownAndLatex) {
   EXPECT_EQ(
       toMarkdown(someTable()),
       "### Some_table\n\nHow to read it.\n\n| method | n | error | p |\n|---|---:|---:|---:|\n"
-      "| a,\"b\" | 3 | 0.1235 | \\<0.001 |\n| c\\_d | 4 | - | 0.250 |\n\n");
+      "| a,\"b\" | 3 | 0.123 | \\<0.001 |\n| c\\_d | 4 | - | 0.250 |\n\n");
   const std::string latex = toLatex(someTable());
   EXPECT_NE(latex.find("\\caption{Some\\_table}"), std::string::npos);
   EXPECT_NE(latex.find("c\\_d & 4 & - & 0.250 \\\\\n"), std::string::npos);
   EXPECT_NE(latex.find("$<$0.001"), std::string::npos);
+}
+
+TEST(ReportTable, HasThreeSignificantDigitsAndNoZeroForWhatIsNone) {
+  const auto text = [](double value) { return cellText(Json(value), Format::kError); };
+  EXPECT_EQ(text(0.123456), "0.123");
+  EXPECT_EQ(text(0.0099999), "0.0100");
+  EXPECT_EQ(text(9.999), "10.0");
+  EXPECT_EQ(text(12345.6), "12346");
+  EXPECT_EQ(text(0.00001234), "1.23e-05");
+  EXPECT_EQ(text(1.7e308), "1.70e+308");
+  EXPECT_EQ(text(-0.02), "-0.0200");
+  EXPECT_EQ(text(0.0), "0");
+  EXPECT_EQ(cellText(Json(0.00004), Format::kFraction), "4.00e-05");
+  EXPECT_EQ(cellText(Json(0.5), Format::kFraction), "0.500");
+  EXPECT_EQ(cellText(Json(0.0123), Format::kSeconds), "0.0123");
 }
 
 TEST(ReportTable, HasNullInJsonWhereANumberIsNotFinite) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "pcrb_core/registration/registration.hpp"
 #include "pcrb_core/transform.hpp"
 
 namespace pcrb_tools {
@@ -38,5 +40,28 @@ void addFailed(PairFile& file, const PairNames& pair, const std::string& reason)
 /// Reads what addAligned and addFailed made, or a published file.
 /// @throws pcrb::InvalidFile  with file and line, what was found and what was expected.
 PairFile readPairFile(const std::string& path);
+
+/// Aligns pairs of a sequence's clouds from their ground-truth poses. A target that stays is read
+/// and prepared once.
+class PairEvaluator {
+ public:
+  /// @param radius  m: pairs of points beyond are no pairs.
+  PairEvaluator(std::string folder, double radius, int threads);
+
+  /// Adds the pair's row: PPCR on all points with 10 neighbours, Student's t with ν = 5, no ρ, no
+  /// quantile cut; its misalignment is the metric's unnormalized variant of what PPCR moved.
+  /// A pair that cannot be aligned, say for too few points, becomes a row with the reason.
+  /// @throws pcrb::InvalidFile  if a cloud cannot be read.
+  void evaluate(const PairNames& pair, PairFile& file);
+
+ private:
+  void setTarget(const std::string& name);
+  void align(const PairNames& pair, PairFile& file);
+
+  std::string folder_;
+  std::unique_ptr<pcrb::Registration> method_;
+  std::string target_;  // the method's, a file name; empty without one
+  Eigen::Vector3d local_origin_ = Eigen::Vector3d::Zero();
+};
 
 }  // namespace pcrb_tools

@@ -1,12 +1,11 @@
-#include "report/load_entries.hpp"
+#include "report/entries.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "pcrb_core/run/results_store.hpp"
-#include "report/catalog.hpp"
-#include "report/import_results.hpp"
+#include "report/published.hpp"
 
 namespace pcrb_tools {
 namespace {

@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""The command pcrb: one grammar, everything checked before anything starts, runs with a master of their own, verdicts."""
+import json
+import os
+import re
+import subprocess
+import sys
+
+import rospkg
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pcrb_testing_data as maths
+from pcrb_testing import Child, TestCase, executable, rows, run_info
+
+COMMANDS = ('prepare fetch overlap sample map check run localize paper score report compare merge ground-truth replay bag demo '
+            'doctor recipes completion options').split() + [f'convert {name}' for name in ('eth', 'planetary', 'tum', 'kaist')]
+
+
+def front_door():
+    """pcrb lies in the bin of the space whose lib has the programs."""
+    return os.path.join(os.path.dirname(executable('pcrb_tools', 'report')), '..', '..', 'bin', 'pcrb')
+
+
+def pcrb(*words, **variables):
+    return subprocess.run([front_door(), *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding='utf-8',
+                          env={**os.environ, **variables}, check=False)
+
+
+class PcrbCommandTest(TestCase):
+
+    def setUp(self):
+        super().setUp()
+        self.data = maths.make_data_set(self.path('root'), points=400, perturbations=4)
+
+    def run_of(self, name, *words, **variables):
+        """A finished run of icp."""
+        run = self.path(name)
+        words = words or ('--method', 'icp')
+        child = self.start(Child([front_door(), 'run', '--root', self.data.root, '--run', run, *words], **variables))
+        self.assert_ends_well(child)
+        return run, child.output()
+
+    def assert_refused(self, words, *patterns):
+        result = pcrb(*words)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertEqual(result.stdout, '')
+        for pattern in patterns:
+            self.assertRegex(result.stderr, pattern)
+
+    def test_help_names_every_command_and_each_command_its_options(self):
+        overview = pcrb('--help').stdout
+        for name in COMMANDS:
+            self.assertIn(f'  {name} ', overview)
+            result = pcrb(*name.split(), '--help')
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f'usage: pcrb {name}', result.stdout)
+            self.assertIn('Example: ', result.stdout)
+            self.assertNotIn('\033', result.stdout)
+        self.assertRegex(pcrb('--version').stdout, r'^pcrb \d+\.\d+\.\d+\n$')
+
+    def test_all_mistakes_are_named_with_what_was_meant_and_nothing_starts(self):
+        run = self.path('run')
+        self.assert_refused(['run', '--root', self.data.root, '--run', run, 'subst:=5', '--methd', 'icp', '--kind=locl', '--jobs', '0'],
+                            r'subst:=: did you mean --subset\?', r'--methd: did you mean --method\?', 'did you mean local',
+                            'found 0, expected 1 to 1024')
+        self.assert_refused(['run', '--root', self.data.root, '--run', run, '--method', 'gcip'], r'did you mean gicp\?')
+        self.assert_refused(['run', '--root', self.data.root, '--run', run, '--sequences', 'kitchn'], r'did you mean kitchen\?')
+        self.assert_refused(['run', '--run', run, '--root', self.path('nowhere')], 'expected a folder that is there')
+        self.assert_refused(['rnu'], r'did you mean run\?')
+        self.assert_refused(['convert', 'kaitsu'], r'did you mean kaist\?')
+        self.assert_refused(['compare', self.data.root], 'OLD: .*results.sqlite|NEW: must be given')
+        self.assert_refused(['report', '--formt', 'csv', self.data.root, '--output', run], r'did you mean --format\?')
+        self.assert_refused(['overlap', '--root', self.data.root, '--sequences', 'halll'], r'did you mean hall\?')
+        self.assertFalse(os.path.exists(run))
+
+    def test_a_run_has_its_own_master_a_table_the_next_commands_and_no_alarm(self):
+        run, output = self.run_of('run', '--method', 'icp', 'sequences:=kitchen', ROS_MASTER_URI='http://127.0.0.1:1')
+        self.assertEqual({row['sequence'] for row in rows(run)}, {'kitchen'})
+        self.assertRegex(output, r'total +local +')
+        self.assertIn(f'pcrb replay --run {run} --order worst', output)
+        self.assertIn(f'pcrb report {run} --output {run}/report', output)
+        self.assertNotIn('REQUIRED', output)
+        again = pcrb('run', '--root', self.data.root, '--run', run, '--method', 'icp', '--sequences', 'kitchen', '--json')
+        self.assertEqual(again.returncode, 0, again.stderr)
+        result = json.loads(again.stdout)
+        self.assertEqual((result['status'], result['problems'], result['is_complete']), (0, len(rows(run)), True))
+        self.assertEqual(result['sequences'][-1]['count'], len(rows(run)))
+
+    def test_values_that_look_like_numbers_stay_text(self):
+        for name in 'kitchen_local.txt', 'kitchen':
+            os.rename(os.path.join(self.data.root, 'rooms', name), os.path.join(self.data.root, 'rooms', name.replace('kitchen', '00')))
+        run, _ = self.run_of('run', '--method', 'icp', '--sequences', '00', '--kind', 'local')
+        self.assertEqual(run_info(run)['sequences'], '00')
+
+    def test_a_client_of_ones_own_is_started_and_a_run_with_the_current_master_too(self):
+        client = executable('pcrb_tools', 'minimal_client.py')
+        run, _ = self.run_of('client', '--client', client, '--subset', '4')
+        self.assertEqual(run_info(run)['under_test'], client)
+        current, output = self.run_of('current', '--method', 'icp', '--subset', '4', '--master', 'current')
+        self.assertEqual(len(rows(current)), 4)
+        self.assertNotIn('REQUIRED', output)
+
+    def test_compare_passes_a_run_like_the_old_one_and_fails_one_that_is_worse(self):
+        old, _ = self.run_of('old')
+        new, _ = self.run_of('new')
+        result = pcrb('compare', old, new)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertRegex(result.stdout, r'total +local +\d+ +0 > 0 .* same')
+        idle, _ = self.run_of('idle', '--client', executable('pcrb_tools', 'minimal_client.py'))  # it returns the guess
+        result = pcrb('compare', old, idle, '--json')
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        verdicts = {row['sequence']: row['verdict'] for row in json.loads(result.stdout)}
+        self.assertEqual(verdicts, {'kitchen': 'same', 'hall': 'same', 'total': 'worse'})  # three pairs of clouds show nothing
+
+    def test_completion_offers_commands_options_and_choices(self):
+        script = pcrb('completion', 'bash').stdout
+
+        def complete(*words):
+            quoted = ' '.join(f"'{word}'" for word in words)
+            return subprocess.run(['bash', '-c', f'{script}\nCOMP_WORDS=({quoted}); COMP_CWORD={len(words) - 1}; _pcrb; '
+                                   'printf "%s\\n" "${COMPREPLY[@]}"'], stdout=subprocess.PIPE, encoding='utf-8', check=True).stdout.split()
+        self.assertEqual(complete('pcrb', 'comp'), ['compare', 'completion'])
+        self.assertEqual(complete('pcrb', 'run', '--sub'), ['--subset'])
+        self.assertEqual(complete('pcrb', 'run', '--kind', 'lo'), ['local'])
+        self.assertEqual(complete('pcrb', 'convert', 'k'), ['kaist'])
+        self.assertIn('--max-rate', complete('pcrb', 'convert', 'kaist', '--max'))
+
+    def test_the_table_of_options_is_that_of_the_documents_and_no_word_means_two_things(self):
+        table = pcrb('options').stdout
+        names = re.findall(r'^\| `(?:-\w, )?--([\w-]+)', table, re.MULTILINE)
+        self.assertEqual(len(names), len(set(names)), names)
+        self.assertNotIn(' or else ', table)
+        path = os.path.join(rospkg.RosPack().get_path('pcrb_tools'), '..', 'docs', 'pcrb.md')
+        if os.path.exists(path):  # an install space has none
+            with open(path, encoding='utf-8') as file:
+                self.assertEqual(file.read(), table, 'pcrb options > docs/pcrb.md')
+
+    def test_doctor_says_what_is_there_and_what_to_type(self):
+        result = pcrb('doctor', '--root', self.data.root)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertRegex(result.stdout, r'ok +workspace')
+        result = pcrb('doctor', '--root', self.path('nowhere'))
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertRegex(result.stdout, r'fix +data +.*pcrb prepare')
+
+
+if __name__ == '__main__':
+    rostest.rosrun('pcrb_launch', 'pcrb_command', PcrbCommandTest)

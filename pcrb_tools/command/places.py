@@ -1,0 +1,86 @@
+"""Where things are: programs and packages of the workspace, and sequences below a root."""
+import glob
+import os
+import sys
+
+from options import did_you_mean
+
+
+def prefixes():
+    """The devel or install spaces that are sourced, and the one that this program is in."""
+    own = os.path.dirname(os.path.dirname(os.path.realpath(sys.argv[0])))
+    return [own, *filter(None, os.environ.get('CMAKE_PREFIX_PATH', '').split(':'))]
+
+
+def find_program(name, package='pcrb_tools'):
+    """Path of a program of a package, or None."""
+    for prefix in prefixes():
+        path = os.path.join(prefix, 'lib', package, name)
+        if os.access(path, os.X_OK):
+            return path
+    return None
+
+
+def package_folder(package):
+    """Folder of a package's files, or None."""
+    for prefix in prefixes():
+        path = os.path.join(prefix, 'share', package)
+        if os.path.isfile(os.path.join(path, 'package.xml')):
+            return path
+    for folder in os.environ.get('ROS_PACKAGE_PATH', '').split(':'):
+        for path in [folder, *sorted(glob.glob(os.path.join(folder, '*'))), *sorted(glob.glob(os.path.join(folder, '*', '*')))]:
+            if package_name(path) == package:
+                return path
+    return None
+
+
+def package_name(folder):
+    try:
+        with open(os.path.join(folder, 'package.xml'), encoding='utf-8') as file:
+            return file.read().partition('<name>')[2].partition('</name>')[0].strip()
+    except OSError:
+        return ''
+
+
+def launch_file(name):
+    folder = package_folder('pcrb_launch')
+    return os.path.join(folder, name) if folder else None
+
+
+def known_methods():
+    """The methods that have a parameter file."""
+    files = glob.glob(os.path.join(package_folder('pcrb_launch') or '', 'config', 'methods', '*.yaml'))
+    return sorted(os.path.splitext(os.path.basename(file))[0] for file in files)
+
+
+def problem_files(root, kind='both'):
+    """(data set, sequence, kind, path) of each problem file below a root."""
+    found = []
+    for each in ('local', 'global'):
+        for path in sorted(glob.glob(os.path.join(root, '*', f'*_{each}.txt'))):
+            data_set, name = path.split(os.sep)[-2:]
+            if kind in ('both', None, each):
+                found.append((data_set, name[:-len(f'_{each}.txt')], each, path))
+    return found
+
+
+def cloud_folders(root):
+    """(data set, sequence) of each folder of clouds below a root."""
+    folders = sorted({os.path.dirname(path) for path in glob.glob(os.path.join(root, '*', '*', '*.pcd'))})
+    return [tuple(folder.split(os.sep)[-2:]) for folder in folders]
+
+
+def select(names, known, place):
+    """Those of (data set, sequence) that some words name: all, a sequence, a data set, or data_set/sequence.
+
+    Returns them and a list of mistakes: words that name nothing.
+    """
+    chosen, mistakes = [], []
+    for name in names or ['all']:
+        found = [pair for pair in known if name in ('all', pair[0], pair[1], f'{pair[0]}/{pair[1]}')]
+        if not found:
+            words = {word for pair in known for word in (*pair, '/'.join(pair))}
+            mistakes.append(f'--sequences: found nothing called `{name}` in {place}' +
+                            (did_you_mean(name, words) or ''))
+        chosen += [pair for pair in found if pair not in chosen]
+    return chosen, mistakes

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "report/report_tool.hpp"
+#include "report/section.hpp"
+#include "report/table.hpp"
+
+namespace pcrb_tools {
+
+/// Pairs of clouds below which no interval is given: Wilcoxon's test of five cannot reject either.
+constexpr std::size_t kFewestPairs = 6;
+
+/// Statistics of the error and outcomes, a row per method and selection of all levels, the medians
+/// with their confidence intervals; the baseline comes last.
+Table scoreTable(const Section& section, const ReportOptions& options);
+
+/// `method,sequence,median,q75,q95,mean,stddev`: sequences and totals of all sections. A method
+/// that has both kinds is called `method (kind)`.
+Table summaryTable(const std::vector<Section>& sections);
+
+/// The paper's statistics of the section's methods and sequences, as published.
+Table publishedTable(const Section& section);
+
+/// Level below which a corrected p-value counts as a real difference.
+constexpr double kSignificance = 0.05;
+
+/// Wilcoxon's test of every two methods on the problems that both have, pairs of clouds as units
+/// (their median errors), over everything and per sequence; Holm's correction within either family.
+/// The verdict names the better method, or says that none is shown, or that so few pairs could show
+/// none. No rows for a single method.
+Table comparisonTable(const Section& section);
+
+/// Spearman's ρ of the error against the initial misalignment and the overlap: per sequence and
+/// pooled, with all problems and without the unanswered ones, whose error is the misalignment.
+Table correlationTable(const Section& section);
+
+/// Registration recall at the options' (m, °) pairs, per method and selection of all levels.
+Table recallTable(const Section& section, const ReportOptions& options);
+
+/// Quantiles of latency (source published to reply received) and of the solver's own time.
+Table runtimeTable(const Section& section);
+
+/// Bias and spread of the answered problems' errors in x y z (m) and roll pitch yaw (degrees). No
+/// rows where no run has them.
+Table componentTable(const Section& section);
+
+/// Every problem, worst first.
+Table problemTable(const Section& section);
+
+/// Numbers that are drawn and are in no table: `thresholds` and `solved` (fraction of problems
+/// solved over the error threshold, per method), `over_misalignment` and `over_overlap` (quartiles
+/// of the error in bins, per data set and method), `histograms` (of the error, per sequence and
+/// method, with median, mean and standard deviation) and `overlaps` (of the pairs, per sequence).
+Json chartsOf(const Section& section);
+
+}  // namespace pcrb_tools
