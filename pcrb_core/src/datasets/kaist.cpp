@@ -65,7 +65,7 @@ std::vector<Stamp> parseKaistStamps(std::string_view text, const std::string& na
   std::vector<Stamp> stamps;
   LineReader reader(text, name);
   std::string_view line;
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     const auto stamp = parseInt(trimmed(line));
     if (!stamp || *stamp < 0) reader.fail(inQuotes(line), "a stamp in ns");
     stamps.push_back(*stamp);
@@ -101,7 +101,7 @@ Trajectory parseKaistTrajectory(std::string_view text, const std::string& name) 
   std::vector<StampedPose> poses;
   LineReader reader(text, name);
   std::string_view line;
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     const std::size_t comma = line.find(',');
     const auto stamp = parseInt(trimmed(line.substr(0, comma)));
     if (!stamp || *stamp < 0 || comma == std::string_view::npos)

@@ -11,12 +11,6 @@
 
 namespace pcrb {
 
-/// The text without the byte order mark that some programs begin a file with.
-std::string_view withoutByteOrderMark(std::string_view text);
-
-/// Takes the next line that is not blank; false behind the last one.
-bool nextNotBlank(LineReader& reader, std::string_view& line);
-
 enum class Separator { kBlanks, kComma };
 
 /// All numbers of a line. Blanks around numbers are accepted, and a comma after the last one;

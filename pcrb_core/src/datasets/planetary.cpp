@@ -53,7 +53,7 @@ Transform parsePlanetaryPose(std::string_view text, const std::string& name) {
   LineReader reader(text, name);
   std::string_view line;
   std::vector<double> numbers;
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     if (numbers.size() == 16) reader.fail("a fifth row", expected);
     const auto row = requireNumbers(reader, line, Separator::kBlanks, 4, expected);
     numbers.insert(numbers.end(), row.begin(), row.end());

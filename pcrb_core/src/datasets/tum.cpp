@@ -22,7 +22,7 @@ std::string_view takeWord(std::string_view& line) {
 
 /// The next line that is neither blank nor a comment.
 bool nextRow(LineReader& reader, std::string_view& line) {
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     line = trimmed(line);
     if (line.front() != '#') return true;
   }
@@ -30,8 +30,8 @@ bool nextRow(LineReader& reader, std::string_view& line) {
 }
 
 Stamp requireStamp(const LineReader& reader, std::string_view word) {
-  const auto stamp = parseStamp(word);
-  if (!stamp) reader.fail(inQuotes(word), "a timestamp 'seconds.fraction'");
+  const auto stamp = parseTimestamp(word);
+  if (!stamp) reader.fail(inQuotes(word), "a timestamp in seconds");
   return *stamp;
 }
 
