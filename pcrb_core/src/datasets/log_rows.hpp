@@ -24,12 +24,6 @@ std::vector<double> requireNumbers(const LineReader& reader, std::string_view li
                                    Separator separator, std::size_t count,
                                    const std::string& expected);
 
-/// One past the blanks at the start of [at, end).
-inline const char* skipBlanks(const char* at, const char* end) {
-  while (at != end && (*at == ' ' || *at == '\t')) ++at;
-  return at;
-}
-
 /// Largest ‖RᵀR − I‖ (Frobenius) of a rotation in a log: six decimals are far within it, a matrix
 /// that means something else is not.
 constexpr double kLogRotationTolerance = 1e-3;

@@ -26,7 +26,8 @@ bool parsePoint(std::string_view line, const char* text_end, Eigen::Vector3d& po
 
 }  // namespace
 
-SensorScan parsePlanetaryScan(std::string_view text, const std::string& name) {
+SensorScan parsePlanetaryScan(std::string_view text, const std::string& name,
+                              double max_malformed) {
   SensorScan scan;
   LineReader reader(text, name);
   std::string_view line;
@@ -44,6 +45,14 @@ SensorScan parsePlanetaryScan(std::string_view text, const std::string& name) {
   if (scan.points.empty()) {
     throw InvalidFile(name, 0, "no line with a point among " + std::to_string(reader.lineNumber()),
                       "lines 'x y z'");
+  }
+  const PointCounts& counts = scan.counts;
+  if (counts.malformed > kFewMalformedLines &&
+      static_cast<double>(counts.malformed) > max_malformed * static_cast<double>(counts.read)) {
+    throw InvalidFile(name, 0,
+                      std::to_string(counts.malformed) + " of " + std::to_string(counts.read) +
+                          " lines that are no point",
+                      "'x y z' in all but " + formatShortest(100.0 * max_malformed) + " %");
   }
   return scan;
 }

@@ -51,7 +51,7 @@ KaistGate::KaistGate(const KaistFrames& frames, const KaistRequest& request,
       limiter_(request.max_rate) {
   if (frames.trajectory.duplicates() > 0) {
     conversion.note(std::to_string(frames.trajectory.duplicates()) +
-                    " poses have the stamp of an earlier one and were not used");
+                    " poses have the stamp of a later one and were not used");
   }
 }
 

@@ -51,6 +51,12 @@ void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
 /// empty line is one empty field.
 void splitAt(char separator, std::string_view line, std::vector<std::string_view>& fields);
 
+/// One past the blanks at the start of [at, end).
+inline const char* skipBlanks(const char* at, const char* end) {
+  while (at != end && (*at == ' ' || *at == '\t')) ++at;
+  return at;
+}
+
 /// The text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 
