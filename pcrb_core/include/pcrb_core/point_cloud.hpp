@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "pcrb_core/transform.hpp"
@@ -15,6 +16,7 @@ struct DatasetCloud {
   std::vector<float> intensity;                 ///< one per point, or empty where there is none
   Transform viewpoint = Transform::Identity();  ///< T_dataset_sensor; identity counts as unknown
   std::size_t dropped_non_finite = 0;           ///< points left out on load: NaN or infinite
+  std::vector<std::string> notes;               ///< of the reader: what it took although it is odd
 
   bool hasViewpoint() const;
 };

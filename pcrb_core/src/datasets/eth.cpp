@@ -146,9 +146,9 @@ std::string ethCloudName(std::uint64_t number) {
 }
 
 SensorScan parseEthScan(std::string_view text, const std::string& name) {
-  LineReader reader(withoutByteOrderMark(text), name);
+  LineReader reader(text, name);
   std::string_view line;
-  if (!nextNotBlank(reader, line)) throw InvalidFile(name, 0, "no line", "a header and points");
+  if (!reader.nextRow(line)) throw InvalidFile(name, 0, "no line", "a header and points");
   const Columns columns = parseHeader(reader, line);
   SensorScan scan;
   while (reader.next(line)) {
@@ -162,13 +162,13 @@ SensorScan parseEthScan(std::string_view text, const std::string& name) {
 std::map<std::uint64_t, Transform> parseLeicaPoses(std::string_view text, const std::string& name) {
   const std::string expected = "18 numbers: poseId, timestamp, T00 ... T33";
   std::map<std::uint64_t, Transform> poses;
-  LineReader reader(withoutByteOrderMark(text), name);
+  LineReader reader(text, name);
   std::string_view line;
   std::vector<double> numbers;
-  if (nextNotBlank(reader, line) && parseNumbers(line, Separator::kComma, numbers)) {
+  if (reader.nextRow(line) && parseNumbers(line, Separator::kComma, numbers)) {
     reader.fail("numbers in the first line", "a header");
   }
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     numbers = requireNumbers(reader, line, Separator::kComma, kPoseColumns, expected);
     const std::uint64_t number = requireScanNumber(reader, numbers[0]);
     if (!poses.emplace(number, requireLogPose4x4(reader, &numbers[2])).second) {

@@ -14,6 +14,7 @@ namespace pcrb {
 namespace {
 
 constexpr std::size_t kRecordSize = 16;
+constexpr std::size_t kFewImpossible = 10;
 
 /// A little-endian float32 on any processor.
 float loadFloat(const char* bytes) {
@@ -22,6 +23,12 @@ float loadFloat(const char* bytes) {
   float value = 0.0F;
   std::memcpy(&value, &bits, sizeof(value));
   return value;
+}
+
+/// Whether a lidar on a car can have given a point; points that are not finite count apart.
+bool isPossible(const Eigen::Vector3d& point, float intensity) {
+  constexpr double kReach = 1000.0;  // m
+  return !point.allFinite() || (point.lpNorm<Eigen::Infinity>() <= kReach && !(intensity < 0.0F));
 }
 
 /// The numbers after `key` at the start of a line, or none if the line has another key.
@@ -54,9 +61,20 @@ SensorScan parseVelodyneScan(std::string_view bytes, OriginPoints origin, const 
   }
   SensorScan scan;
   scan.points.reserve(bytes.size() / kRecordSize);
+  std::size_t impossible = 0;
   for (std::size_t at = 0; at != bytes.size(); at += kRecordSize) {
     const char* const record = bytes.data() + at;
-    scan.add({loadFloat(record), loadFloat(record + 4), loadFloat(record + 8)}, origin);
+    const Eigen::Vector3d point(loadFloat(record), loadFloat(record + 4), loadFloat(record + 8));
+    impossible += isPossible(point, loadFloat(record + 12)) ? 0 : 1;
+    scan.add(point, origin);
+  }
+  const std::size_t records = bytes.size() / kRecordSize;
+  if (impossible > std::max(kFewImpossible, records / 100)) {
+    throw InvalidFile(
+        name, 0,
+        std::to_string(impossible) + " of " + std::to_string(records) +
+            " records with a coordinate beyond 1 km or a negative intensity",
+        "records of 16 bytes (x y z intensity, float32): are these longer or shorter?");
   }
   return scan;
 }
@@ -65,7 +83,7 @@ std::vector<Stamp> parseKaistStamps(std::string_view text, const std::string& na
   std::vector<Stamp> stamps;
   LineReader reader(text, name);
   std::string_view line;
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     const auto stamp = parseInt(trimmed(line));
     if (!stamp || *stamp < 0) reader.fail(inQuotes(line), "a stamp in ns");
     stamps.push_back(*stamp);
@@ -101,7 +119,7 @@ Trajectory parseKaistTrajectory(std::string_view text, const std::string& name) 
   std::vector<StampedPose> poses;
   LineReader reader(text, name);
   std::string_view line;
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     const std::size_t comma = line.find(',');
     const auto stamp = parseInt(trimmed(line.substr(0, comma)));
     if (!stamp || *stamp < 0 || comma == std::string_view::npos)

@@ -6,19 +6,6 @@
 
 namespace pcrb {
 
-std::string_view withoutByteOrderMark(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  const bool marked = text.substr(0, kByteOrderMark.size()) == kByteOrderMark;
-  return marked ? text.substr(kByteOrderMark.size()) : text;
-}
-
-bool nextNotBlank(LineReader& reader, std::string_view& line) {
-  while (reader.next(line)) {
-    if (!trimmed(line).empty()) return true;
-  }
-  return false;
-}
-
 bool parseNumbers(std::string_view line, Separator separator, std::vector<double>& numbers) {
   numbers.clear();
   const char* const end = line.data() + line.size();

@@ -11,12 +11,6 @@
 
 namespace pcrb {
 
-/// The text without the byte order mark that some programs begin a file with.
-std::string_view withoutByteOrderMark(std::string_view text);
-
-/// Takes the next line that is not blank; false behind the last one.
-bool nextNotBlank(LineReader& reader, std::string_view& line);
-
 enum class Separator { kBlanks, kComma };
 
 /// All numbers of a line. Blanks around numbers are accepted, and a comma after the last one;
@@ -29,12 +23,6 @@ bool parseNumbers(std::string_view line, Separator separator, std::vector<double
 std::vector<double> requireNumbers(const LineReader& reader, std::string_view line,
                                    Separator separator, std::size_t count,
                                    const std::string& expected);
-
-/// One past the blanks at the start of [at, end).
-inline const char* skipBlanks(const char* at, const char* end) {
-  while (at != end && (*at == ' ' || *at == '\t')) ++at;
-  return at;
-}
 
 /// Largest ‖RᵀR − I‖ (Frobenius) of a rotation in a log: six decimals are far within it, a matrix
 /// that means something else is not.

@@ -26,7 +26,8 @@ bool parsePoint(std::string_view line, const char* text_end, Eigen::Vector3d& po
 
 }  // namespace
 
-SensorScan parsePlanetaryScan(std::string_view text, const std::string& name) {
+SensorScan parsePlanetaryScan(std::string_view text, const std::string& name,
+                              double max_malformed) {
   SensorScan scan;
   LineReader reader(text, name);
   std::string_view line;
@@ -45,6 +46,14 @@ SensorScan parsePlanetaryScan(std::string_view text, const std::string& name) {
     throw InvalidFile(name, 0, "no line with a point among " + std::to_string(reader.lineNumber()),
                       "lines 'x y z'");
   }
+  const PointCounts& counts = scan.counts;
+  if (counts.malformed > kFewMalformedLines &&
+      static_cast<double>(counts.malformed) > max_malformed * static_cast<double>(counts.read)) {
+    throw InvalidFile(name, 0,
+                      std::to_string(counts.malformed) + " of " + std::to_string(counts.read) +
+                          " lines that are no point",
+                      "'x y z' in all but " + formatShortest(100.0 * max_malformed) + " %");
+  }
   return scan;
 }
 
@@ -53,7 +62,7 @@ Transform parsePlanetaryPose(std::string_view text, const std::string& name) {
   LineReader reader(text, name);
   std::string_view line;
   std::vector<double> numbers;
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     if (numbers.size() == 16) reader.fail("a fifth row", expected);
     const auto row = requireNumbers(reader, line, Separator::kBlanks, 4, expected);
     numbers.insert(numbers.end(), row.begin(), row.end());

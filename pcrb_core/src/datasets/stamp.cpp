@@ -1,6 +1,8 @@
 #include "pcrb_core/datasets/stamp.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "pcrb_core/error.hpp"
@@ -10,9 +12,34 @@ namespace pcrb {
 namespace {
 
 constexpr std::size_t kDecimals = 9;
+constexpr std::int64_t kLargestExponent = 1000;
 
 bool onlyDigits(std::string_view text) {
   return text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// A number without sign and exponent: its digits from the first that is not 0 on, and how many of
+/// them, or how many zeros before them if negative, are before the point.
+struct Decimal {
+  std::string digits;
+  std::int64_t point = 0;
+};
+
+std::string_view withoutPlus(std::string_view text) {
+  return text.substr(0, 1) == "+" ? text.substr(1) : text;
+}
+
+std::optional<Decimal> takeDecimal(std::string_view text) {
+  text = withoutPlus(text);
+  const std::size_t point = std::min(text.find('.'), text.size());
+  Decimal decimal;
+  decimal.digits = text.substr(0, point);
+  if (point < text.size()) decimal.digits += text.substr(point + 1);
+  if (decimal.digits.empty() || !onlyDigits(decimal.digits)) return std::nullopt;
+  const std::size_t zeros = std::min(decimal.digits.find_first_not_of('0'), decimal.digits.size());
+  decimal.digits.erase(0, zeros);
+  decimal.point = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(zeros);
+  return decimal;
 }
 
 }  // namespace
@@ -34,6 +61,25 @@ std::optional<Stamp> parseStamp(std::string_view text) {
     return std::nullopt;
   }
   return *whole * kSecond + *part;
+}
+
+std::optional<Stamp> parseTimestamp(std::string_view text) {
+  const std::size_t e = std::min(text.find_first_of("eE"), text.size());
+  const auto decimal = takeDecimal(text.substr(0, e));
+  const auto exponent =
+      e == text.size() ? std::optional(std::int64_t{0}) : parseInt(withoutPlus(text.substr(e + 1)));
+  const bool has_two_signs = text.find("+-", e) != std::string_view::npos;
+  if (!decimal || !exponent || has_two_signs || std::abs(*exponent) > kLargestExponent)
+    return std::nullopt;
+  // The number of ns is the digits up to here, rounded.
+  const std::int64_t wanted = decimal->point + *exponent + static_cast<std::int64_t>(kDecimals);
+  if (decimal->digits.empty() || wanted < 0) return 0;
+  const auto whole = static_cast<std::size_t>(wanted);
+  std::string digits = decimal->digits.substr(0, whole);
+  digits.resize(whole, '0');
+  const auto stamp = digits.empty() ? std::optional(std::int64_t{0}) : parseInt(digits);
+  if (!stamp || *stamp > std::numeric_limits<Stamp>::max() - kSecond) return std::nullopt;
+  return *stamp + (whole < decimal->digits.size() && decimal->digits[whole] >= '5' ? 1 : 0);
 }
 
 std::string formatStamp(Stamp stamp) {

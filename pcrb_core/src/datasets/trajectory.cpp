@@ -42,10 +42,13 @@ Trajectory::Trajectory(std::vector<StampedPose> poses) : poses_(std::move(poses)
   if (poses_.empty()) throw InvalidProblem("a trajectory needs at least one pose");
   std::stable_sort(poses_.begin(), poses_.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
-  const auto end = std::unique(poses_.begin(), poses_.end(),
-                               [](const auto& a, const auto& b) { return a.stamp == b.stamp; });
-  duplicates_ = static_cast<std::size_t>(poses_.end() - end);
-  poses_.erase(end, poses_.end());
+  // From behind: of equal stamps the last one stays.
+  const auto first_kept =
+      std::unique(poses_.rbegin(), poses_.rend(), [](const auto& a, const auto& b) {
+        return a.stamp == b.stamp;
+      }).base();
+  duplicates_ = static_cast<std::size_t>(first_kept - poses_.begin());
+  poses_.erase(poses_.begin(), first_kept);
 }
 
 PoseLookup Trajectory::interpolate(Stamp stamp, Stamp max_gap) const {

@@ -22,7 +22,7 @@ std::string_view takeWord(std::string_view& line) {
 
 /// The next line that is neither blank nor a comment.
 bool nextRow(LineReader& reader, std::string_view& line) {
-  while (nextNotBlank(reader, line)) {
+  while (reader.nextRow(line)) {
     line = trimmed(line);
     if (line.front() != '#') return true;
   }
@@ -30,9 +30,22 @@ bool nextRow(LineReader& reader, std::string_view& line) {
 }
 
 Stamp requireStamp(const LineReader& reader, std::string_view word) {
-  const auto stamp = parseStamp(word);
-  if (!stamp) reader.fail(inQuotes(word), "a timestamp 'seconds.fraction'");
+  const auto stamp = parseTimestamp(word);
+  if (!stamp) reader.fail(inQuotes(word), "a timestamp in seconds");
   return *stamp;
+}
+
+/// Names the trajectories of other formats that are met in place of TUM's.
+void refuseOtherTrajectories(const LineReader& reader, std::string_view line) {
+  const std::string expected = "timestamp tx ty tz qx qy qz qw";
+  if (line.find(',') != std::string_view::npos) {
+    reader.fail(inQuotes(line) + ", with commas as EuRoC's trajectories have them",
+                expected + ", separated by blanks (evo_traj euroc FILE --save_as_tum)");
+  }
+  std::vector<double> numbers;
+  if (parseNumbers(line, Separator::kBlanks, numbers) && numbers.size() == 12) {
+    reader.fail("12 numbers, a row of KITTI's trajectories, which have no timestamps", expected);
+  }
 }
 
 bool staysBelow(std::string_view path) {
@@ -55,6 +68,7 @@ Trajectory parseTumTrajectory(std::string_view text, const std::string& name) {
   LineReader reader(text, name);
   std::string_view line;
   while (nextRow(reader, line)) {
+    refuseOtherTrajectories(reader, line);
     const Stamp stamp = requireStamp(reader, takeWord(line));
     const auto n = requireNumbers(reader, line, Separator::kBlanks, 7, expected);
     const Eigen::Quaterniond rotation(n[6], n[3], n[4], n[5]);

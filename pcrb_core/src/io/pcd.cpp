@@ -1,5 +1,7 @@
 #include "pcrb_core/io/pcd.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -42,6 +44,19 @@ std::string formatHeader(const DatasetCloud& cloud) {
 
 }  // namespace
 
+std::size_t defaultMemory() {
+  static const std::size_t memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+                                    static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE)) / 4;
+  return memory;
+}
+
+void requireMemory(const LineReader& lines, std::size_t needed, std::size_t allowed) {
+  constexpr std::size_t kMegabyte = 1000000;
+  if (needed <= allowed) return;
+  lines.fail("a cloud that takes " + std::to_string(needed / kMegabyte + 1) + " MB of memory",
+             "at most " + std::to_string(allowed / kMegabyte) + " MB");
+}
+
 DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options) {
   const FileBytes file(path);
   return parsePcd(file.begin(), file.end(), path, options);
@@ -57,15 +72,16 @@ DatasetCloud parsePcd(const char* begin, const char* end, const std::string& nam
   const PcdHeader header = readPcdHeader(lines);
   DatasetCloud cloud;
   cloud.viewpoint = header.viewpoint;
+  cloud.notes = header.notes;
   switch (header.data) {
     case PcdData::kAscii:
-      readPcdAscii(header, lines, options.threads, cloud);
+      readPcdAscii(header, lines, options, cloud);
       break;
     case PcdData::kBinary:
-      readPcdBinary(header, lines, cloud);
+      readPcdBinary(header, lines, options.memory, cloud);
       break;
     case PcdData::kBinaryCompressed:
-      readPcdCompressed(header, lines, cloud);
+      readPcdCompressed(header, lines, options.memory, cloud);
       break;
   }
   return cloud;

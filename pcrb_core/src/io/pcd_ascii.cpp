@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <future>
 #include <string_view>
 
@@ -12,77 +11,43 @@ namespace pcrb {
 namespace {
 
 constexpr const char* kBlanksAndLineEnds = " \t\r\n";
-constexpr std::size_t kSmallestChunk = 1
-                                       << 16;  // bytes; below it a thread costs more than it saves
-
+/// Bytes; below it a thread costs more than it saves.
+constexpr std::size_t kSmallestChunk = 1 << 16;
 constexpr std::size_t kCacheLine = 64;  // bytes
 
-bool isBlank(char c) { return c == ' ' || c == '\t'; }
+bool isSpace(char c) { return c == ' ' || c == '\t'; }
 bool isLineEnd(char c) { return c == '\r' || c == '\n'; }
 
-const char* skipBlanks(const char* text, const char* end) {
-  while (text < end && isBlank(*text)) ++text;
-  return text;
-}
-
 const char* skipToken(const char* text, const char* end) {
-  while (text < end && !isBlank(*text) && !isLineEnd(*text)) ++text;
+  while (text < end && !isSpace(*text) && !isLineEnd(*text)) ++text;
   return text;
 }
 
-/// Where the values of a row go.
-enum Slot { kX, kY, kZ, kIntensity, kIgnored, kSlots };
-
-/// What the tokens of one field must be.
+/// Reads the tokens of one field.
 struct Column {
-  explicit Column(const PcdField& described)
-      : field(described), slot(slotOf(described)), is_padding(described.isPadding()) {}
-
-  /// Reads a token; one past it, or nullptr if it is none or not of this column's type.
-  const char* scan(const char* text, const char* end, double& value) const {
-    if (field.type == 'F' && !is_padding) return scanDouble(text, end, value);
+  /// Reads a token; one past it, or nullptr if there is none, or no number where one is needed.
+  ///
+  /// @param is_odd  set if it is in an integer's column that nobody uses, and none of its type.
+  const char* scan(const char* text, const char* end, double& value, bool& is_odd) const {
+    if (field.use != PcdUse::kNone) return scanDouble(text, end, value);
     const char* const behind = skipToken(text, end);
-    const std::string_view token(text, static_cast<std::size_t>(behind - text));
-    const bool is_good = is_padding ? !token.empty() : parseInteger(token, value);
-    return is_good ? behind : nullptr;
-  }
-
-  /// What a token of this column must be, for messages.
-  std::string expected() const {
-    if (field.type == 'F') return "a number";
-    const std::string bits = std::to_string(8 * field.size);
-    return (field.type == 'I' ? "a signed integer of " : "an unsigned integer of ") + bits +
-           " bits";
+    if (field.type != 'F' && !field.isPadding() && !is_odd) {
+      is_odd = std::find_if(text, behind, [this](char c) {
+                 return (c < '0' || c > '9') && (c != '-' || field.type != 'I');
+               }) != behind;
+    }
+    return behind == text ? nullptr : behind;
   }
 
   PcdField field;
-  Slot slot;
-  bool is_padding;
-
- private:
-  static Slot slotOf(const PcdField& field) {
-    if (field.name == "x") return kX;
-    if (field.name == "y") return kY;
-    if (field.name == "z") return kZ;
-    return field.name == "intensity" ? kIntensity : kIgnored;
-  }
-
-  bool parseInteger(std::string_view token, double& value) const {
-    const auto unused_bits = static_cast<int>(64 - 8 * field.size);
-    if (field.type == 'I') {
-      const auto parsed = parseInt(token);
-      if (!parsed || *parsed > INT64_MAX >> unused_bits || *parsed < INT64_MIN >> unused_bits) {
-        return false;
-      }
-      value = static_cast<double>(*parsed);
-      return true;
-    }
-    const auto parsed = parseUnsigned(token);
-    if (!parsed || *parsed > UINT64_MAX >> unused_bits) return false;
-    value = static_cast<double>(*parsed);
-    return true;
-  }
 };
+
+/// Whether a line, that does not end the text, has nothing in it.
+bool isBlankLine(const char* line, const char* end) {
+  const char* at = skipBlanks(line, end);
+  if (at < end && *at == '\r') ++at;
+  return at < end && *at == '\n';
+}
 
 /// What a part of the rows holds.
 struct Part {
@@ -90,19 +55,23 @@ struct Part {
   std::vector<float> intensity;
   std::size_t dropped = 0;
   std::size_t rows = 0;
+  std::size_t blank_lines = 0;
+  bool is_odd = false;              // an integer that nobody uses was none
   const char* malformed = nullptr;  // the first row that is, if any
 };
 
 /// On cache lines of its own: all threads read it, and one of them keeps its part beside it.
 class alignas(kCacheLine) AsciiReader {
  public:
-  AsciiReader(const PcdHeader& header, const LineReader& lines)
+  AsciiReader(const PcdHeader& header, const LineReader& lines, std::size_t memory)
       : lines_(lines), points_(header.points) {
     for (const PcdField& field : header.fields) {
-      columns_.emplace_back(field);
+      columns_.push_back({field});
       tokens_ += field.count;
-      has_intensity_ = has_intensity_ || columns_.back().slot == kIntensity;
+      has_intensity_ = has_intensity_ || field.use == PcdUse::kIntensity;
     }
+    const std::size_t bytes = lines.rest().size();
+    requireMemory(lines, bytes + pointBytes(header, mostRows(bytes)), memory);
   }
 
   void read(int threads, DatasetCloud& cloud) const {
@@ -122,6 +91,11 @@ class alignas(kCacheLine) AsciiReader {
   }
 
  private:
+  /// A token takes two bytes with what separates it: the header cannot claim memory.
+  std::size_t mostRows(std::size_t bytes) const {
+    return std::min(points_, bytes / (2 * tokens_) + 1);
+  }
+
   /// Cuts a text behind line ends into up to `count` parts of about the same size.
   static std::vector<std::string_view> split(std::string_view text, std::size_t count) {
     count = std::min(count, text.size() / kSmallestChunk + 1);
@@ -138,37 +112,45 @@ class alignas(kCacheLine) AsciiReader {
 
   Part readRows(std::string_view text) const {
     Part part;
-    // A token takes two bytes with what separates it: the header cannot claim memory.
-    const std::size_t most_rows = std::min(points_, text.size() / (2 * tokens_) + 1);
+    const std::size_t most_rows = mostRows(text.size());
     part.points.reserve(most_rows);
     if (has_intensity_) part.intensity.reserve(most_rows);
     const char* const end = text.data() + text.size();
-    double values[kSlots] = {};
-    for (const char* row = text.data(); row < end; ++part.rows) {
-      const char* const next = readRow(row, end, values);
+    double values[kPcdUses] = {};
+    for (const char* row = text.data(); row < end;) {
+      const char* const next = readRow(row, end, values, part.is_odd);
+      if (next == nullptr && isBlankLine(row, end)) {
+        row = std::find(row, end, '\n') + 1;
+        ++part.blank_lines;
+        continue;
+      }
       if (next == nullptr) {
         part.malformed = row;
         return part;
       }
+      ++part.rows;
       row = next;
-      const Eigen::Vector3d point(values[kX], values[kY], values[kZ]);
+      const Eigen::Vector3d point(values[0], values[1], values[2]);
       if (!std::isfinite(point.x()) || !std::isfinite(point.y()) || !std::isfinite(point.z())) {
         ++part.dropped;
         continue;
       }
       part.points.push_back(point);
-      if (has_intensity_) part.intensity.push_back(static_cast<float>(values[kIntensity]));
+      if (has_intensity_)
+        part.intensity.push_back(
+            static_cast<float>(values[static_cast<std::size_t>(PcdUse::kIntensity)]));
     }
     return part;
   }
 
   /// One past the row's end, or nullptr if the row is malformed.
-  const char* readRow(const char* text, const char* end, double* values) const {
+  const char* readRow(const char* text, const char* end, double* values, bool& is_odd) const {
     for (const Column& column : columns_) {
+      double& value = values[static_cast<std::size_t>(column.field.use)];
       for (std::size_t i = 0; i < column.field.count; ++i) {
-        text = column.scan(skipBlanks(text, end), end, values[column.slot]);
+        text = column.scan(skipBlanks(text, end), end, value, is_odd);
         if (text == nullptr) return nullptr;
-        if (text < end && !isBlank(*text) && !isLineEnd(*text)) return nullptr;
+        if (text < end && !isSpace(*text) && !isLineEnd(*text)) return nullptr;
       }
     }
     text = skipBlanks(text, end);
@@ -212,11 +194,12 @@ class alignas(kCacheLine) AsciiReader {
     for (const Column& column : columns_) {
       for (std::size_t i = 0; i < column.field.count; ++i, ++token) {
         double ignored = 0.0;
+        bool is_odd = false;
         const char* const end = token->data() + token->size();
-        if (column.scan(token->data(), end, ignored) != end) {
+        if (column.scan(token->data(), end, ignored, is_odd) != end) {
           throw InvalidFile(lines_.name(), line_number,
                             inQuotes(*token) + " for field " + inQuotes(column.field.name),
-                            column.expected());
+                            "a number");
         }
       }
     }
@@ -224,14 +207,25 @@ class alignas(kCacheLine) AsciiReader {
   }
 
   static void join(std::vector<Part>& parts, DatasetCloud& cloud) {
+    std::size_t points = 0;
+    std::size_t blank_lines = 0;
+    bool is_odd = false;
+    for (const Part& part : parts) {
+      points += part.points.size();
+      blank_lines += part.blank_lines;
+      is_odd = is_odd || part.is_odd;
+      cloud.dropped_non_finite += part.dropped;
+    }
+    if (blank_lines > 0) cloud.notes.push_back(std::to_string(blank_lines) + " blank lines");
+    if (is_odd) cloud.notes.emplace_back("an integer's column, not used, holds something else");
     cloud.points = std::move(parts[0].points);
     cloud.intensity = std::move(parts[0].intensity);
-    cloud.dropped_non_finite = parts[0].dropped;
+    cloud.points.reserve(points);
+    cloud.intensity.reserve(cloud.intensity.empty() ? 0 : points);
     for (std::size_t i = 1; i < parts.size(); ++i) {
-      const Part& part = parts[i];
+      const Part part = std::move(parts[i]);  // its memory is free behind this
       cloud.points.insert(cloud.points.end(), part.points.begin(), part.points.end());
       cloud.intensity.insert(cloud.intensity.end(), part.intensity.begin(), part.intensity.end());
-      cloud.dropped_non_finite += part.dropped;
     }
   }
 
@@ -244,9 +238,9 @@ class alignas(kCacheLine) AsciiReader {
 
 }  // namespace
 
-void readPcdAscii(const PcdHeader& header, const LineReader& lines, int threads,
+void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReadOptions& options,
                   DatasetCloud& cloud) {
-  AsciiReader(header, lines).read(threads, cloud);
+  AsciiReader(header, lines, options.memory).read(options.threads, cloud);
 }
 
 }  // namespace pcrb

@@ -63,10 +63,10 @@ struct BinaryColumn {
 
 void collect(const PcdHeader& header, const std::vector<BinaryColumn>& columns,
              DatasetCloud& cloud) {
-  const BinaryColumn& x = columns[header.find("x")];
-  const BinaryColumn& y = columns[header.find("y")];
-  const BinaryColumn& z = columns[header.find("z")];
-  const std::size_t intensity = header.find("intensity");
+  const BinaryColumn& x = columns[header.find(PcdUse::kX)];
+  const BinaryColumn& y = columns[header.find(PcdUse::kY)];
+  const BinaryColumn& z = columns[header.find(PcdUse::kZ)];
+  const std::size_t intensity = header.find(PcdUse::kIntensity);
   cloud.points.reserve(header.points);
   if (intensity < columns.size()) cloud.intensity.reserve(header.points);
   for (std::size_t i = 0; i < header.points; ++i) {
@@ -132,13 +132,15 @@ bool decodeLzf(std::string_view data, char* values, std::size_t size) {
 
 }  // namespace
 
-void readPcdBinary(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud) {
+void readPcdBinary(const PcdHeader& header, const LineReader& lines, std::size_t memory,
+                   DatasetCloud& cloud) {
   const std::string_view data = lines.rest();
   const std::size_t row_bytes = rowBytes(header, true);
   if (!isAtLeast(data.size(), header.points, row_bytes) ||
       !isFill(data.substr(header.points * row_bytes))) {
     lines.fail(std::to_string(data.size()) + " bytes of data", describe(header, row_bytes));
   }
+  requireMemory(lines, data.size() + pointBytes(header, header.points), memory);
   std::vector<BinaryColumn> columns;
   const char* first = data.data();
   for (const PcdField& field : header.fields) {
@@ -148,7 +150,8 @@ void readPcdBinary(const PcdHeader& header, const LineReader& lines, DatasetClou
   collect(header, columns, cloud);
 }
 
-void readPcdCompressed(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud) {
+void readPcdCompressed(const PcdHeader& header, const LineReader& lines, std::size_t memory,
+                       DatasetCloud& cloud) {
   std::string_view data = lines.rest();
   std::uint32_t sizes[2];
   if (data.size() < sizeof(sizes)) {
@@ -167,6 +170,7 @@ void readPcdCompressed(const PcdHeader& header, const LineReader& lines, Dataset
                    std::to_string(compressed) + " bytes of LZF data",
                "at most " + std::to_string(kLzfLargestRatio) + " times as many");
   }
+  requireMemory(lines, data.size() + uncompressed + pointBytes(header, header.points), memory);
   const std::unique_ptr<char[]> values(new char[uncompressed]);
   if (!decodeLzf(data.substr(0, compressed), values.get(), uncompressed)) {
     lines.fail("broken LZF data", std::to_string(uncompressed) + " bytes after decoding");

@@ -1,6 +1,7 @@
 #include "pcd_header.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -17,6 +18,12 @@ using Values = std::vector<std::string_view>;
 constexpr double kNewestVersion = 0.7;
 constexpr double kUnitTolerance = 1e-3;
 constexpr std::size_t kLargestCount = std::numeric_limits<std::int32_t>::max();
+
+std::string inSmallLetters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
 
 /// Reads the entries one by one; knows which were there.
 class HeaderReader {
@@ -94,16 +101,31 @@ class HeaderReader {
 
   void readFields(const Values& names) {
     for (const auto name : names) header_.fields.push_back({std::string(name)});
-    for (const char* axis : {"x", "y", "z"}) {
-      if (header_.find(axis) == header_.fields.size()) {
-        lines_.fail(std::string("no field ") + axis, "fields x, y and z");
-      }
-    }
-    for (const std::string name : {"x", "y", "z", "intensity"}) {
-      if (std::count(names.begin(), names.end(), name) > 1) lines_.fail(name + " again", "it once");
-    }
+    const std::vector<std::string> used{"x", "y", "z", "intensity"};
+    for (std::size_t i = 0; i < used.size(); ++i) use(used[i], static_cast<PcdUse>(i));
   }
 
+  /// Gives the field of this name, or else of this name in capitals, its use.
+  void use(const std::string& name, PcdUse purpose) {
+    auto& fields = header_.fields;
+    const auto find = [&](const auto& is_it) {
+      return std::find_if(fields.begin(), fields.end(), is_it);
+    };
+    auto found = find([&](const PcdField& field) { return field.name == name; });
+    if (found == fields.end()) {
+      found = find([&](const PcdField& field) { return inSmallLetters(field.name) == name; });
+      if (found != fields.end()) note("field " + found->name + " is taken for " + name);
+    }
+    if (found == fields.end() && purpose == PcdUse::kIntensity) return;
+    if (found == fields.end()) lines_.fail("no field " + name, "fields x, y and z");
+    const auto again = [&](const PcdField& field) { return field.name == found->name; };
+    if (std::find_if(found + 1, fields.end(), again) != fields.end()) {
+      lines_.fail(name + " again", "it once");
+    }
+    found->use = purpose;
+  }
+
+  void note(const std::string& text) { header_.notes.push_back(text); }
   template <typename Set>
   void forEachField(const std::string& entry, const Values& values, const Set& set) {
     if (!has("FIELDS")) lines_.fail(entry + " without FIELDS before it", "FIELDS first");
@@ -152,6 +174,10 @@ class HeaderReader {
       if (!value || !std::isfinite(*value)) lines_.fail(inQuotes(values[i]), "a finite number");
       numbers[i] = *value;
     }
+    if (std::all_of(numbers, numbers + 7, [](double number) { return number == 0.0; })) {
+      note("VIEWPOINT has only zeros: the sensor's pose is taken as unknown");
+      return;
+    }
     const Eigen::Quaterniond rotation(numbers[3], numbers[4], numbers[5], numbers[6]);
     if (!(std::abs(rotation.norm() - 1.0) <= kUnitTolerance)) {
       lines_.fail("a quaternion of norm " + formatShortest(rotation.norm()), "a unit quaternion");
@@ -171,9 +197,13 @@ class HeaderReader {
     }
   }
 
-  void checkTogether() const {
-    for (const char* entry : {"FIELDS", "SIZE", "TYPE", "WIDTH", "HEIGHT", "POINTS"}) {
+  void checkTogether() {
+    for (const char* entry : {"FIELDS", "SIZE", "TYPE", "WIDTH", "POINTS"}) {
       if (!has(entry)) lines_.fail(std::string("no ") + entry, "it before DATA");
+    }
+    if (!has("HEIGHT")) {
+      height_ = 1;
+      note("no HEIGHT: it is taken as 1");
     }
     const bool fits = width_ == 0 || height_ <= std::numeric_limits<std::size_t>::max() / width_;
     if (!fits || width_ * height_ != header_.points) {
@@ -181,17 +211,21 @@ class HeaderReader {
                       " and POINTS " + std::to_string(header_.points),
                   "WIDTH * HEIGHT = POINTS");
     }
-    for (const PcdField& field : header_.fields) checkField(field);
+    for (PcdField& field : header_.fields) checkField(field);
   }
 
-  void checkField(const PcdField& field) const {
+  void checkField(PcdField& field) {
     const std::string found = "type " + std::string(1, field.type) + ", size " +
                               std::to_string(field.size) + ", count " +
                               std::to_string(field.count) + " for field " + inQuotes(field.name);
     if (field.type == 'F' && field.size < 4) lines_.fail(found, "size 4 or 8");
-    const bool is_axis = field.name == "x" || field.name == "y" || field.name == "z";
+    const bool is_axis = field.use < PcdUse::kIntensity;
     if (is_axis && field.type != 'F') lines_.fail(found, "type F");
-    if ((is_axis || field.name == "intensity") && field.count != 1) lines_.fail(found, "count 1");
+    if (is_axis && field.count != 1) lines_.fail(found, "count 1");
+    if (field.use == PcdUse::kIntensity && field.count != 1) {
+      note("intensity has COUNT " + std::to_string(field.count) + ": it is not kept");
+      field.use = PcdUse::kNone;
+    }
   }
 
   LineReader& lines_;
@@ -203,9 +237,9 @@ class HeaderReader {
 
 }  // namespace
 
-std::size_t PcdHeader::find(const std::string& name) const {
+std::size_t PcdHeader::find(PcdUse use) const {
   const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [&](const PcdField& field) { return field.name == name; });
+                                  [&](const PcdField& field) { return field.use == use; });
   return static_cast<std::size_t>(found - fields.begin());
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/io/text.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/transform.hpp"
@@ -12,12 +13,17 @@ namespace pcrb {
 
 enum class PcdData { kAscii, kBinary, kBinaryCompressed };
 
+/// What the values of a field become.
+enum class PcdUse { kX, kY, kZ, kIntensity, kNone };
+constexpr std::size_t kPcdUses = 5;
+
 /// One entry of FIELDS with what SIZE, TYPE and COUNT say about it.
 struct PcdField {
   std::string name;
   std::size_t size = 0;   ///< bytes of one element
   char type = 'F';        ///< F, I or U
   std::size_t count = 1;  ///< elements
+  PcdUse use = PcdUse::kNone;
 
   std::size_t bytes() const { return size * count; }
   bool isPadding() const { return name == "_"; }
@@ -25,13 +31,14 @@ struct PcdField {
 
 /// A checked PCD header: its entries agree with each other, not yet with the data.
 struct PcdHeader {
-  std::vector<PcdField> fields;  ///< x, y, z are among them: once, TYPE F, COUNT 1
+  std::vector<PcdField> fields;  ///< x, y, z are used: once, TYPE F, COUNT 1
   std::size_t points = 0;
   Transform viewpoint = Transform::Identity();
   PcdData data = PcdData::kAscii;
+  std::vector<std::string> notes;  ///< what was taken although it is not as it should be
 
-  /// Index of the field with this name, or fields.size().
-  std::size_t find(const std::string& name) const;
+  /// Index of the field with this use, or fields.size().
+  std::size_t find(PcdUse use) const;
 };
 
 /// Takes the lines of `lines` up to the DATA entry and checks them.
@@ -41,11 +48,23 @@ struct PcdHeader {
 PcdHeader readPcdHeader(LineReader& lines);
 
 // Readers of what follows a PCD header. `lines` stands behind the DATA entry; they fill points,
-// intensity and dropped_non_finite, and throw InvalidFile.
+// intensity, dropped_non_finite and notes, and throw InvalidFile, also where they need more than
+// `memory` bytes, the file's among them.
 
-void readPcdAscii(const PcdHeader& header, const LineReader& lines, int threads,
+void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReadOptions& options,
                   DatasetCloud& cloud);
-void readPcdBinary(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud);
-void readPcdCompressed(const PcdHeader& header, const LineReader& lines, DatasetCloud& cloud);
+void readPcdBinary(const PcdHeader& header, const LineReader& lines, std::size_t memory,
+                   DatasetCloud& cloud);
+void readPcdCompressed(const PcdHeader& header, const LineReader& lines, std::size_t memory,
+                       DatasetCloud& cloud);
+
+/// Bytes of so many points in a DatasetCloud.
+inline std::size_t pointBytes(const PcdHeader& header, std::size_t points) {
+  const bool has_intensity = header.find(PcdUse::kIntensity) < header.fields.size();
+  return points * (sizeof(Eigen::Vector3d) + (has_intensity ? sizeof(float) : 0));
+}
+
+/// @throws InvalidFile  if more bytes are needed than allowed.
+void requireMemory(const LineReader& lines, std::size_t needed, std::size_t allowed);
 
 }  // namespace pcrb

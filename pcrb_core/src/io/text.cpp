@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/locale/utf.hpp>
+#include <cctype>
 #include <utility>
 
 #include "pcrb_core/error.hpp"
@@ -12,10 +13,63 @@ namespace {
 constexpr const char* kBlanks = " \t";
 constexpr std::size_t kLongestQuote = 40;
 
+bool beginsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  return beginsWith(text, kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
+}
+
+/// UTF-16 of either byte order, with its mark or, as every other byte of a first word, without.
+bool isUtf16(std::string_view text) {
+  if (beginsWith(text, "\xFF\xFE") || beginsWith(text, "\xFE\xFF")) return true;
+  if (text.size() < 4) return false;
+  const auto is_zero = [&](std::size_t i) { return text[i] == '\0'; };
+  return (is_zero(0) && is_zero(2) && !is_zero(1) && !is_zero(3)) ||
+         (is_zero(1) && is_zero(3) && !is_zero(0) && !is_zero(2));
+}
+
+bool isHtml(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  std::string start(text.substr(0, 14));
+  std::transform(start.begin(), start.end(), start.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return start == "<!doctype html" || beginsWith(start, "<html");
+}
+
+bool hasLoneCarriageReturns(std::string_view text) {
+  const std::size_t first = text.find_first_of("\r\n");
+  return first + 1 < text.size() && text[first] == '\r' && text[first + 1] != '\n' &&
+         text.find('\n') == std::string_view::npos;
+}
+
+/// What a file is that has no lines of data in it, and what to do about it; nothing for others.
+std::pair<const char*, const char*> describeForeign(std::string_view text) {
+  if (isUtf16(text)) return {"UTF-16 text", "UTF-8 (iconv -f UTF-16 -t UTF-8)"};
+  if (isHtml(text)) {
+    return {"an HTML page", "data: the download gave a page, of an error or to confirm, instead"};
+  }
+  if (beginsWith(text, "version https://git-lfs")) {
+    return {"a Git LFS pointer", "the file that it stands for (git lfs pull)"};
+  }
+  if (beginsWith(text, "\x1F\x8B") || beginsWith(text, "PK\x03\x04")) {
+    return {"a compressed archive", "what is in it"};
+  }
+  if (hasLoneCarriageReturns(text)) {
+    return {"lone carriage returns as line ends", "line feeds (tr '\\r' '\\n')"};
+  }
+  return {nullptr, nullptr};
+}
+
 }  // namespace
 
 LineReader::LineReader(std::string_view text, std::string name)
-    : rest_(text), name_(std::move(name)) {}
+    : rest_(withoutByteOrderMark(text)), name_(std::move(name)) {
+  const auto [found, expected] = describeForeign(rest_);
+  if (found != nullptr) throw InvalidFile(name_, 1, found, expected);
+}
 
 bool LineReader::next(std::string_view& line) {
   if (rest_.empty()) return false;
@@ -25,6 +79,13 @@ bool LineReader::next(std::string_view& line) {
   rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return true;
+}
+
+bool LineReader::nextRow(std::string_view& line) {
+  while (next(line)) {
+    if (line.find_first_not_of(kBlanks) != std::string_view::npos) return true;
+  }
+  return false;
 }
 
 void LineReader::fail(const std::string& found, const std::string& expected) const {
@@ -110,7 +171,8 @@ std::string takeField(LineReader& lines, std::string_view& line) {
 }  // namespace
 
 void appendCsvField(std::string& line, std::string_view field) {
-  if (field.find_first_of(",\"\r\n") == std::string_view::npos) {
+  const bool is_plain = field.find_first_of(",\"\r\n") == std::string_view::npos;
+  if (is_plain && trimmed(field).size() == field.size()) {
     line += field;
     return;
   }
@@ -121,7 +183,7 @@ void appendCsvField(std::string& line, std::string_view field) {
 
 bool nextCsvRow(LineReader& lines, std::vector<std::string>& fields) {
   std::string_view line;
-  if (!lines.next(line)) return false;
+  if (!lines.nextRow(line)) return false;
   fields = {takeField(lines, line)};
   while (!line.empty()) {
     line.remove_prefix(1);

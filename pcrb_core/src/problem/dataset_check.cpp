@@ -36,6 +36,7 @@ std::size_t hashOf(const std::vector<Eigen::Vector3d>& points) {
 std::optional<CloudSummary> checkCloud(const std::string& path, std::vector<Finding>& findings) {
   try {
     const DatasetCloud cloud = readPcd(path);
+    for (const std::string& note : cloud.notes) findings.push_back({Severity::kNote, path, note});
     if (cloud.dropped_non_finite > 0) {
       findings.push_back({Severity::kNote, path,
                           std::to_string(cloud.dropped_non_finite) +

@@ -19,7 +19,7 @@ constexpr std::string_view kCorner = "overlap";
 std::vector<std::string> parseHeader(LineReader& lines) {
   std::string_view line;
   const std::string expected = "the header 'overlap' and the names of the clouds";
-  if (!lines.next(line)) lines.fail("an empty file", expected);
+  if (!lines.nextRow(line)) lines.fail("an empty file", expected);
   std::vector<std::string_view> fields;
   splitAtBlanks(line, fields);
   if (fields.size() < 2 || fields[0] != kCorner) lines.fail(inQuotes(line), expected);
@@ -84,7 +84,7 @@ OverlapMatrix parseOverlapMatrix(const char* begin, const char* end, const std::
   std::vector<std::string_view> fields;
   std::string_view line;
   std::size_t row = 0;
-  while (lines.next(line)) {
+  while (lines.nextRow(line)) {
     splitAtBlanks(line, fields);
     parseRow(lines, matrix.names, row++, fields, matrix.values);
   }

@@ -52,7 +52,8 @@ bool isOverlap(double value) { return value >= 0.0 && value <= 1.0; }
 
 void checkHeader(LineReader& lines) {
   std::string_view line;
-  if (!lines.next(line)) lines.fail("an empty file", "the header '" + std::string(kHeader) + "'");
+  if (!lines.nextRow(line))
+    lines.fail("an empty file", "the header '" + std::string(kHeader) + "'");
   std::vector<std::string_view> expected;
   std::vector<std::string_view> found;
   splitAtBlanks(kHeader, expected);
@@ -128,7 +129,7 @@ std::vector<Problem> parseProblemFile(const char* begin, const char* end, const 
   std::unordered_map<std::string_view, std::size_t> line_of_id;
   std::vector<std::string_view> fields;
   std::string_view line;
-  while (lines.next(line)) {
+  while (lines.nextRow(line)) {
     splitAtBlanks(line, fields);
     problems.push_back(parseRow(lines, fields));
     const auto [first, is_new] = line_of_id.emplace(fields[0], lines.lineNumber());

@@ -62,6 +62,25 @@ TEST(VelodyneScan, NonFiniteReturnsAreCounted) {
   EXPECT_EQ(parseVelodyneScan(bytes, OriginPoints::kDrop, "1.bin").counts.non_finite, 1u);
 }
 
+TEST(VelodyneScan, RejectsRecordsOfAnotherLengthByTheirValues) {
+  const auto bytesOf = [](const std::vector<float>& values) {
+    return std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size());
+  };
+  std::vector<float> four, three, five;
+  for (int i = 0; i < 400; ++i) {
+    const float x = static_cast<float>(i) - 200.0F, y = 30.0F - static_cast<float>(i), z = -1.7F;
+    four.insert(four.end(), {x, y, z, 12.0F});
+    three.insert(three.end(), {x, y, z});
+    five.insert(five.end(), {x, y, z, 12.0F, 3.0F});
+  }
+  EXPECT_EQ(parseVelodyneScan(bytesOf(four), OriginPoints::kKeep, "1.bin").points.size(), 400u);
+  for (const auto* values : {&three, &five}) {
+    PCRB_EXPECT_ERROR(InvalidFile,
+                      parseVelodyneScan(bytesOf(*values), OriginPoints::kKeep, "1.bin"),
+                      "a negative intensity, expected records of 16 bytes");
+  }
+}
+
 TEST(KaistStamps, AreIntegersOfNanoseconds) {
   const auto stamps = parseKaistStamps("1519102894479453001\r\n\n 1519102894579453257 \n", "s.csv");
   ASSERT_EQ(stamps.size(), 2u);

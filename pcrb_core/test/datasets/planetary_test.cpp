@@ -38,8 +38,21 @@ TEST(PlanetaryScan, CountsLinesWithoutThreeNumbersAndPointsThatAreNotFinite) {
   EXPECT_EQ(scan.counts.non_finite, 1u);
 }
 
+TEST(PlanetaryScan, RejectsAFileWithMoreMalformedLinesThanTheLimit) {
+  std::string text = "1 2 3\n";
+  for (int i = 0; i < 1000; ++i) text += "1;2;3\n";
+  PCRB_EXPECT_ERROR(InvalidFile, parsePlanetaryScan(text, "a.xyz"),
+                    "a.xyz: found 1000 of 1001 lines that are no point, expected 'x y z' in all "
+                    "but 1 %");
+  EXPECT_EQ(parsePlanetaryScan(text, "a.xyz", 1.0).counts.malformed, 1000u);
+  text.clear();
+  for (int i = 0; i < 2000; ++i) text += i % 100 == 0 ? "1;2;3\n" : "1 2 3\n";
+  EXPECT_EQ(parsePlanetaryScan(text, "a.xyz").points.size(), 1980u);
+  EXPECT_THROW(parsePlanetaryScan(text, "a.xyz", 0.005), InvalidFile);
+}
+
 TEST(PlanetaryScan, RejectsAFileWithoutAnyPoint) {
-  PCRB_EXPECT_ERROR(InvalidFile, parsePlanetaryScan("<html>\n</html>\n", "a.xyz"),
+  PCRB_EXPECT_ERROR(InvalidFile, parsePlanetaryScan("a b\nc d\n", "a.xyz"),
                     "a.xyz: found no line with a point among 2");
   PCRB_EXPECT_ERROR(InvalidFile, parsePlanetaryScan("", "a.xyz"), "a.xyz: ");
 }

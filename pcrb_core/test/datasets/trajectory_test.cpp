@@ -51,11 +51,11 @@ TEST(Trajectory, APoseAtTheVeryStampIsFoundAtTheEdgeOfAGap) {
   EXPECT_EQ(answer.T_world_body.translation().x(), 7.0);
 }
 
-TEST(Trajectory, SortsAndKeepsTheFirstOfPosesWithOneStamp) {
+TEST(Trajectory, SortsAndKeepsTheLastOfPosesWithOneStamp) {
   const Trajectory trajectory({pose(2.0, 2.0, 0.0), pose(1.0, 1.0, 0.0), pose(2.0, 9.0, 0.0)});
   EXPECT_EQ(trajectory.size(), 2u);
   EXPECT_EQ(trajectory.duplicates(), 1u);
-  EXPECT_EQ(trajectory.interpolate(toStamp(2.0), kSecond).T_world_body.translation().x(), 2.0);
+  EXPECT_EQ(trajectory.interpolate(toStamp(2.0), kSecond).T_world_body.translation().x(), 9.0);
 }
 
 TEST(Trajectory, NearestPoseWithoutALimitIsAlwaysFound) {
@@ -63,7 +63,7 @@ TEST(Trajectory, NearestPoseWithoutALimitIsAlwaysFound) {
   EXPECT_EQ(trajectory.nearest(0).T_world_body.translation().x(), 1.0);
   EXPECT_EQ(trajectory.nearest(toStamp(1.5)).T_world_body.translation().x(), 1.0);
   EXPECT_EQ(trajectory.nearest(toStamp(1.5) + 1).T_world_body.translation().x(), 2.0);
-  EXPECT_EQ(trajectory.nearest(toStamp(99.0)).T_world_body.translation().x(), 2.0);
+  EXPECT_EQ(trajectory.nearest(toStamp(99.0)).T_world_body.translation().x(), 9.0);
 }
 
 TEST(Trajectory, NearestPoseWithALimitSaysWhyThereIsNone) {

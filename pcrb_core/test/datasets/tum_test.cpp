@@ -52,7 +52,9 @@ TEST(TumTrajectory, RejectsDefectsNamingTheLine) {
   expectError("1.5 1 2 3 0 0 0 2\n", "a quaternion of norm 2");
   expectError("1.5 1 2 nan 0 0 0 1\n", "not finite");
   expectError("1.5 1 2 1,5 0 0 0 1\n", "gt.txt:1: ");
-  expectError("1.3e9 1 2 3 0 0 0 1\n", "a timestamp");
+  expectError("1.3e 1 2 3 0 0 0 1\n", "a timestamp");
+  expectError("1 0 0 1 0 1 0 2 0 0 1 3\n", "12 numbers, a row of KITTI's trajectories");
+  expectError("1403636579758555392,4.6,-1.7,0.8,0.5,-0.1,-0.8,-0.1\n", "commas as EuRoC's");
   expectError("# only a comment\n", "found no pose");
 }
 

@@ -96,6 +96,59 @@ TEST(Pcd, ReadsExtraAndPaddingFieldsInAnyOrder) {
   EXPECT_EQ(cloud.intensity, (std::vector<float>{0.25f, 0.75f}));
 }
 
+TEST(Pcd, TakesAnyTextInAColumnThatIsNotUsed) {
+  for (const std::string value : {"256", "-1", "5.0", "nan", "x"}) {
+    PcdText pcd{"x y z i", "4 4 4 1", "F F F U", "1 1 1 1"};
+    pcd.body = "1 2 3 " + value + "\n4 5 6 7\n";
+    const DatasetCloud cloud = parsePcd(pcd.text());
+    EXPECT_EQ(cloud.points, kTwoPoints) << value;
+    EXPECT_EQ(cloud.notes.size(), value == "256" ? 0u : 1u) << value;
+  }
+}
+
+using Notes = std::vector<std::string>;
+
+TEST(Pcd, TakesWithANoteWhatChangesNoCoordinate) {
+  const auto expectNote = [](const PcdText& pcd, const std::string& note) {
+    const DatasetCloud cloud = parsePcd(pcd.text());
+    EXPECT_EQ(cloud.points, kTwoPoints) << note;
+    EXPECT_EQ(cloud.notes, Notes{note});
+  };
+  PcdText pcd;
+  EXPECT_EQ(parsePcd(pcd.text()).notes, Notes{});
+  pcd.fields = "x Y z";
+  expectNote(pcd, "field Y is taken for y");
+  pcd = {};
+  pcd.viewpoint = "0 0 0 0 0 0 0";
+  expectNote(pcd, "VIEWPOINT has only zeros: the sensor's pose is taken as unknown");
+  EXPECT_FALSE(parsePcd(pcd.text()).hasViewpoint());
+  pcd = {};
+  pcd.body = "\n1 2 3\n \t\r\n4 5 6\n";
+  expectNote(pcd, "2 blank lines");
+  pcd = {"x y z intensity", "4 4 4 4", "F F F F", "1 1 1 4"};
+  pcd.body = "1 2 3 9 9 9 9\n4 5 6 9 9 9 9\n";
+  expectNote(pcd, "intensity has COUNT 4: it is not kept");
+  EXPECT_TRUE(parsePcd(pcd.text()).intensity.empty());
+  std::string text = PcdText().text();
+  text.erase(text.find("HEIGHT"), 9);
+  EXPECT_EQ(parsePcd(text).points, kTwoPoints);
+  EXPECT_EQ(parsePcd(text).notes, Notes{"no HEIGHT: it is taken as 1"});
+}
+
+TEST(Pcd, TakesIntensityInCapitalsAndAsAnyNumber) {
+  PcdText pcd{"X Y Z Intensity", "4 4 4 1", "F F F U", "1 1 1 1"};
+  pcd.body = "1 2 3 7.5\n4 5 6 -1\n";
+  const DatasetCloud cloud = parsePcd(pcd.text());
+  EXPECT_EQ(cloud.points, kTwoPoints);
+  EXPECT_EQ(cloud.intensity, (std::vector<float>{7.5f, -1.0f}));
+  EXPECT_EQ(cloud.notes.size(), 4u);
+  // A field of the very name goes before one in capitals.
+  pcd.fields = "x y z Y";
+  pcd.body = "1 2 3 8\n4 5 6 9\n";
+  EXPECT_EQ(parsePcd(pcd.text()).points, kTwoPoints);
+  EXPECT_TRUE(parsePcd(pcd.text()).notes.empty());
+}
+
 TEST(Pcd, KeepsTheIntensityOfThePointsThatStay) {
   PcdText pcd{"x y z intensity", "4 4 4 2", "F F F U", "1 1 1 1", "3"};
   pcd.points = "3";

@@ -78,7 +78,8 @@ std::vector<CsvRow> rowsOf(const std::string& text) {
 }
 
 TEST(Csv, ReadsBackWhateverFieldsItWrote) {
-  const CsvRow fields{"", "plain", "a, b", "says \"no\"", "\"", "two\nlines\n", ",", "\"\"", "ä"};
+  const CsvRow fields{"",  "plain", "a, b", "says \"no\"", "\"", "two\nlines\n",
+                      ",", "\"\"",  "ä",    " ",           " a", "b\t"};
   std::string line;
   for (const std::string& field : fields) {
     if (!line.empty()) line += ',';
@@ -96,8 +97,11 @@ TEST(Csv, QuotesOnlyWhatNeedsIt) {
 }
 
 TEST(Csv, KeepsEmptyFieldsAndDropsBlanksAroundFields) {
-  EXPECT_EQ(rowsOf(" a ,,\tb, \" c \" ,\r\n\n"),
-            (std::vector<CsvRow>{{"a", "", "b", " c ", ""}, {""}}));
+  EXPECT_EQ(rowsOf(" a ,,\tb, \" c \" ,\r\n"), (std::vector<CsvRow>{{"a", "", "b", " c ", ""}}));
+}
+
+TEST(Csv, PassesOverBlankLinesBetweenRows) {
+  EXPECT_EQ(rowsOf("a,b\n\n \t\r\nc,d\n\n"), (std::vector<CsvRow>{{"a", "b"}, {"c", "d"}}));
 }
 
 TEST(Csv, TakesAQuoteInsideAFieldAsItIs) {

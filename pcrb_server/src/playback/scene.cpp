@@ -51,7 +51,7 @@ ScanList readScanList(const std::string& path) {
     if (line.substr(0, kOrigin.size()) == kOrigin) list.local_origin = parseOrigin(reader, line);
     if (trimmed(line).empty() || line.front() == '#') continue;
     splitAtBlanks(line, fields);
-    const auto stamp = fields.size() == 2 ? parseStamp(fields[0]) : std::nullopt;
+    const auto stamp = fields.size() == 2 ? parseTimestamp(fields[0]) : std::nullopt;
     if (!stamp || fields[1].find('/') != std::string_view::npos) {
       reader.fail(inQuotes(line), "`timestamp file`");
     }

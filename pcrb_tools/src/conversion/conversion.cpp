@@ -20,7 +20,7 @@ constexpr const char* kConverterVersion = "2";
 void noteDuplicatePoses(const pcrb::Trajectory& trajectory, Conversion& conversion) {
   if (trajectory.duplicates() > 0) {
     conversion.note(std::to_string(trajectory.duplicates()) +
-                    " poses have the stamp of an earlier one and were not used");
+                    " poses have the stamp of a later one and were not used");
   }
 }
 

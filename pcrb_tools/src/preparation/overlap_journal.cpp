@@ -24,7 +24,7 @@ std::optional<std::pair<std::size_t, std::vector<double>>> parseColumn(std::stri
   std::vector<double> column;
   for (std::size_t i = 1; i < fields.size(); ++i) {
     const auto value = pcrb::parseDouble(fields[i]);
-    if (!value) return std::nullopt;
+    if (!value || *value < 0.0 || *value > 1.0) return std::nullopt;  // nan: not computed
     column.push_back(*value);
   }
   return std::make_pair(static_cast<std::size_t>(*target), std::move(column));

@@ -78,7 +78,7 @@ std::vector<RecordedPose> readPoseTable(const std::string& path) {
 pcrb::Trajectory toTrajectory(const std::vector<RecordedPose>& poses, const std::string& path) {
   std::vector<pcrb::StampedPose> stamped;
   for (const RecordedPose& pose : poses) {
-    const auto stamp = pose.label.empty() ? pose.stamp : pcrb::parseStamp(pose.label);
+    const auto stamp = pose.label.empty() ? pose.stamp : pcrb::parseTimestamp(pose.label);
     if (!stamp) {
       throw pcrb::InvalidFile(pose.place, 0, "`" + pose.label + "`", "a timestamp of a trajectory");
     }

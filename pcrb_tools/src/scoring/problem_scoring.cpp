@@ -36,7 +36,7 @@ class ProblemNames {
     if (ids_.count(pose.label) > 0) return pose.label;
     const auto by_id = by_public_id_.find(pose.label);
     if (by_id != by_public_id_.end()) return by_id->second;
-    const auto stamp = pose.label.empty() ? pose.stamp : pcrb::parseStamp(pose.label);
+    const auto stamp = pose.label.empty() ? pose.stamp : pcrb::parseTimestamp(pose.label);
     const auto by_stamp = stamp ? by_stamp_.find(*stamp) : by_stamp_.end();
     if (by_stamp != by_stamp_.end()) return by_stamp->second;
     return std::nullopt;

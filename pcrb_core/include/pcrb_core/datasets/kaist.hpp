@@ -13,7 +13,10 @@ namespace pcrb {
 
 /// Reads a `<ns>.bin` scan: records of four little-endian float32, x y z intensity, sensor frame.
 /// @param name  stands for the path in messages
-/// @throws InvalidFile  if the size is not a multiple of 16.
+/// @throws InvalidFile  if the size is not a multiple of 16; if more than a hundredth of the
+/// records
+///                      (and ten) hold what such a scanner does not give, a coordinate beyond 1 km
+///                      or a negative intensity: they have another length.
 SensorScan parseVelodyneScan(std::string_view bytes, OriginPoints origin, const std::string& name);
 
 /// Reads `VLP_left_stamp.csv` or `VLP_right_stamp.csv`: one stamp in ns a line.

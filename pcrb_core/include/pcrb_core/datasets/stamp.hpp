@@ -13,9 +13,14 @@ using Stamp = std::int64_t;
 
 constexpr Stamp kSecond = 1'000'000'000;
 
-/// The stamp that a text `seconds[.fraction]` means, exactly; nothing for any other text, for
+/// The stamp in a file's name, `seconds[.fraction]`, exactly; nothing for any other text, for
 /// signs, exponents, more than nine decimals other than zeros, and times beyond the year 2262.
 std::optional<Stamp> parseStamp(std::string_view text);
+
+/// The timestamp of a trajectory: any decimal number of seconds, also as `1.3e+09` or with twelve
+/// decimals (as numpy.savetxt writes it), rounded to the nearest ns and never through a double.
+/// @return  nothing for any other text, negative times, and times beyond the year 2262.
+std::optional<Stamp> parseTimestamp(std::string_view text);
 
 /// `seconds.nanoseconds` with nine decimals, as the clouds of TUM's sequences are named.
 /// @param stamp  >= 0

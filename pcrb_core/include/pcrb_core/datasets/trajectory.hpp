@@ -33,7 +33,7 @@ struct PoseLookup {
 /// Ground-truth poses over time.
 class Trajectory {
  public:
-  /// Sorts by stamp; of poses with one stamp the first is kept.
+  /// Sorts by stamp; of poses with one stamp the last is kept, as of replies to one problem.
   /// @throws InvalidProblem  if there is no pose.
   explicit Trajectory(std::vector<StampedPose> poses);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -7,8 +8,13 @@
 
 namespace pcrb {
 
+/// A quarter of the machine's memory, bytes.
+std::size_t defaultMemory();
+
 struct PcdReadOptions {
   int threads = 1;  ///< >= 1, for ascii; the result does not depend on it
+  /// Bytes that file and cloud may take together: what needs more is refused before it is there.
+  std::size_t memory = defaultMemory();
 };
 
 /// Reads a PCD file: ascii, binary or binary_compressed; any extra or padding (`_`) fields; SIZE 4
@@ -16,9 +22,12 @@ struct PcdReadOptions {
 ///
 /// Coordinates are read as double. Points with a NaN or infinite coordinate are left out and
 /// counted. The field `intensity` is kept where the file has one; VIEWPOINT becomes `viewpoint`.
-/// Memory is bounded by the file's size, whatever its header claims. What changes no point is let
-/// pass: any order of header entries, missing VERSION, COUNT (1) or VIEWPOINT, empty lines behind
-/// the last row, zeros that fill binary data up to a page (old versions of PCL wrote them).
+/// Memory is bounded by the file's size, whatever its header claims, and by the options. What
+/// changes no point is let pass: any order of header entries, missing VERSION, COUNT (1) or
+/// VIEWPOINT, empty lines behind the last row, zeros that fill binary data up to a page (old
+/// versions of PCL wrote them), any text in a column that is not used; and with a note in the
+/// cloud: fields X, Y, Z or Intensity, an intensity of several values (not kept), no HEIGHT, a
+/// VIEWPOINT of zeros, blank lines between rows.
 ///
 /// @throws InvalidFile       with file and line, what was found and what was expected.
 /// @throws InvalidParameter  if threads < 1.

@@ -8,15 +8,24 @@
 
 namespace pcrb {
 
-/// Walks over the lines of a text in memory (LF or CRLF, final newline or not) and knows where it
-/// is.
+/// Walks over the lines of a text in memory and knows where it is: the one way in for every text
+/// format.
+///
+/// Lines end with LF or CRLF, the last one perhaps with neither; a byte order mark of UTF-8 is
+/// passed over.
 class LineReader {
  public:
   /// @param name  the file's path, for messages.
+  /// @throws InvalidFile  if this is no text of lines, naming what it is: UTF-16, lone carriage
+  ///                      returns as line ends, or, in place of the data, an HTML page, a Git LFS
+  ///                      pointer or an archive.
   LineReader(std::string_view text, std::string name);
 
   /// Takes the next line, without its end; false behind the last one.
   bool next(std::string_view& line);
+
+  /// Takes the next line that has more than spaces and tabs in it; false behind the last one.
+  bool nextRow(std::string_view& line);
 
   /// Number of the line taken last, from 1; 0 before the first.
   std::size_t lineNumber() const { return line_number_; }
@@ -42,6 +51,12 @@ void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
 /// empty line is one empty field.
 void splitAt(char separator, std::string_view line, std::vector<std::string_view>& fields);
 
+/// One past the blanks at the start of [at, end).
+inline const char* skipBlanks(const char* at, const char* end) {
+  while (at != end && (*at == ' ' || *at == '\t')) ++at;
+  return at;
+}
+
 /// The text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 
@@ -60,13 +75,15 @@ std::string joined(const Texts& parts, std::string_view separator = ", ") {
 /// A text in quotes for a message: shortened to 40 bytes, non-printable bytes in hexadecimal.
 std::string inQuotes(std::string_view text);
 
-/// Appends a field of a row of comma-separated values, quoted where it must be (RFC 4180).
+/// Appends a field of a row of comma-separated values, quoted where it must be to be read back as
+/// it is (RFC 4180).
 void appendCsvField(std::string& line, std::string_view field);
 
 /// Takes the next row of comma-separated values (RFC 4180): a field in quotes may hold commas,
-/// doubled quotes and line ends, which come out as line feeds. Blanks around a field are removed.
+/// doubled quotes and line ends, which come out as line feeds. Blanks around a field without quotes
+/// are removed, blank lines between rows passed over.
 ///
-/// @param fields  replaced by the row's; an empty line is one empty field.
+/// @param fields  replaced by the row's.
 /// @return        false behind the last row.
 /// @throws InvalidFile  if a quote does not end, or text follows a closing quote.
 bool nextCsvRow(LineReader& lines, std::vector<std::string>& fields);
