@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Sets up this checkout as a catkin workspace, builds it, tests it, shows it.
 #
-#   catkin_ws_setup.sh deps      installs the Debian packages that are missing (apt-get, as root or by sudo)
+#   catkin_ws_setup.sh deps      installs the packages that are missing (apt-get, as root or by sudo): Debian 11 to 13,
+#                                Ubuntu 20.04 (its own ROS packages or those in /opt/ros/noetic)
 #   catkin_ws_setup.sh build     deps, catkin_make: this checkout is base and source space of the workspace
 #   catkin_ws_setup.sh test      build, then all unit tests and rostests; --long adds those that take minutes
 #   catkin_ws_setup.sh demo      build, then from simulated logs of four data sets to a scored run and a report
@@ -9,10 +10,11 @@
 #   catkin_ws_setup.sh help      prints this text
 #
 # Every subcommand does what it needs before itself and can be repeated. Warnings are errors with
-# PCRB_WERROR=ON; JOBS=N sets the number of parallel compilers.
+# PCRB_WERROR=ON; JOBS=N sets the number of parallel compilers; CMAKE_ARGS has further arguments of cmake.
 set -euo pipefail
 
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd -P)
+python=/usr/bin/python3
 
 needed_debian_packages=(
   catkin ccache cmake g++ make pkg-config
@@ -26,8 +28,19 @@ needed_debian_packages=(
   liblzf-dev libnanoflann-dev libpcl-dev libpng-dev libsodium-dev libsqlite3-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev pybind11-dev
 )
+# What the ROS packages among them are called in ROS Noetic's own repository: ros-noetic-NAME.
+declare -A noetic_names=(
+  [catkin]=catkin [ros-base-dev]=ros-base [rosbash]=rosbash [rviz]=rviz
+  [libros-rosgraph-msgs-dev]=rosgraph-msgs [librosbag-dev]=rosbag [librostest-dev]=rostest
+  [libstd-srvs-dev]=std-srvs [libtf2-dev]=tf2 [libtf2-msgs-dev]=tf2-msgs [libtf2-ros-dev]=tf2-ros
+  [libtopic-tools-dev]=topic-tools [libvisualization-msgs-dev]=visualization-msgs [libxmlrpcpp-dev]=xmlrpcpp
+  [python3-geometry-msgs]=geometry-msgs [python3-nav-msgs]=nav-msgs [python3-rosbag]=rosbag
+  [python3-rosgraph-msgs]=rosgraph-msgs [python3-rosnode]=rosnode [python3-rospy]=rospy [python3-rostest]=rostest
+  [python3-sensor-msgs]=sensor-msgs [python3-std-msgs]=std-msgs [python3-std-srvs]=std-srvs
+  [python3-tf2-msgs]=tf2-msgs [python3-tf2-ros]=tf2-ros [python3-visualization-msgs]=visualization-msgs
+)
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
-ci_debian_packages=(catkin-lint chromium clang clang-format clang-tidy iproute2 libclang-rt-14-dev locales munge
+ci_debian_packages=(catkin-lint chromium clang clang-format clang-tidy debootstrap iproute2 libclang-rt-14-dev locales munge
   doxygen python3-pip python3-setuptools python3-wheel shellcheck slurm-wlm xvfb)
 
 say() { printf '==> %s\n' "$*"; }
@@ -41,11 +54,44 @@ usage() { sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; }
 
 # --- deps -------------------------------------------------------------------------------------------
 
-require_debian_12() {
-  if ! { grep -qsx 'ID=debian' /etc/os-release && grep -qsx 'VERSION_ID="12"' /etc/os-release; }; then
-    fail "sorry, this sets up Debian 12 only, here is $(sed -n 's/^PRETTY_NAME=//p' /etc/os-release):" \
-      "install what its list needed_debian_packages names in your own way and build with catkin_make"
+# Which ROS 1 this machine has: `debian` (the distribution's own packages), `noetic` (/opt/ros/noetic) or `sourced`
+# (another one, in the environment of this shell); nothing where there is none.
+ros_kind() {
+  local tool
+  tool=$(command -v catkin_make) || true
+  if [[ -n "${ROS_DISTRO:-}" && -n "$tool" && "$tool" != /usr/bin/* && "$tool" != /bin/* && "$tool" != /opt/ros/noetic/* ]]; then
+    echo sourced
+  elif [ -e /opt/ros/noetic/setup.bash ]; then
+    echo noetic
+  elif grep -qsEx 'ID=(debian|ubuntu)' /etc/os-release && grep -qsEx 'VERSION_ID="(1[123]|20\.04)"' /etc/os-release; then
+    echo debian
   fi
+}
+
+# The packages of the list by their names here, one a line.
+names_of_packages() {
+  local kind=$1 package
+  shift
+  for package in "$@"; do
+    if [ "$kind" = debian ]; then
+      echo "$package"
+    elif [ -n "${noetic_names[$package]:-}" ]; then
+      if [ "$kind" = noetic ]; then echo "ros-noetic-${noetic_names[$package]}"; fi
+    else
+      echo "$package"
+    fi
+  done | sort -u
+}
+
+# CMake fetches the headers of some libraries where apt does not know them (docs/platforms.md).
+without_fetched_headers() {
+  local package
+  while read -r package; do
+    case $package in
+      libcli11-dev | libnanoflann-dev) if ! apt-cache show "$package" >/dev/null 2>&1; then continue; fi ;;
+    esac
+    echo "$package"
+  done
 }
 
 missing_debian_packages() {
@@ -70,16 +116,26 @@ apt_get() {
   }
 }
 
+# Installs the packages of the list that are missing; with a ROS of the user's own those that are not ROS.
 install_dependencies() {
-  require_debian_12
-  local missing
-  mapfile -t missing < <(missing_debian_packages "$@")
+  local kind names missing
+  kind=$(ros_kind)
+  [ -n "$kind" ] || fail "found no ROS 1 for $(sed -n 's/^PRETTY_NAME=//p' /etc/os-release): source one, or use" \
+    "Debian 11 to 13, Ubuntu 20.04 with ros-noetic-ros-base, or docker/Dockerfile"
+  if ! command -v dpkg-query >/dev/null; then
+    say "deps: no Debian packages here; where the build misses a library, its name is in needed_debian_packages"
+    return
+  fi
+  mapfile -t names < <(names_of_packages "$kind" "$@")
+  mapfile -t missing < <(missing_debian_packages "${names[@]}" | without_fetched_headers)
   if [ ${#missing[@]} = 0 ]; then
-    say "deps: all $# Debian packages are installed"
+    say "deps: all packages are installed (ROS: $kind)"
     return
   fi
   say "deps: installing ${missing[*]}"
   apt_get update || fail "apt-get update failed twice (is there a network?)"
+  # Only now does apt know all names.
+  mapfile -t missing < <(missing_debian_packages "${names[@]}" | without_fetched_headers)
   apt_get install -y --no-install-recommends "${missing[@]}" ||
     fail "apt-get could not install: ${missing[*]}"
 }
@@ -114,17 +170,36 @@ parallel_jobs() {
   echo "${JOBS:-$((by_memory < by_processors ? by_memory : by_processors))}"
 }
 
-# Debian's ROS and Debian's Python, whatever else the caller's shell has set up.
+# The system's ROS and the system's Python before conda's and pyenv's, but for a ROS that the caller has sourced.
 set_environment() {
-  export PATH=/usr/bin:$PATH PYTHONNOUSERSITE=1 ROS_IP=127.0.0.1
-  export ROS_HOME=$root/build/ros_home
+  export PYTHONNOUSERSITE=1 ROS_IP=127.0.0.1 ROS_HOME=$root/build/ros_home
   unset ROS_HOSTNAME
-  if [ "${ROS_DISTRO:-Debian}" != Debian ]; then unset ROS_DISTRO; fi
+  if [ ! -d "${TMPDIR:-/tmp}" ]; then
+    say "TMPDIR ($TMPDIR) does not exist: using /tmp"
+    unset TMPDIR
+  fi
+  case $(ros_kind) in
+    sourced) python=$(command -v python3) ;;
+    noetic)
+      if [ "${ROS_DISTRO:-}" != noetic ]; then
+        set +u
+        # shellcheck source=/dev/null
+        . /opt/ros/noetic/setup.bash
+        set -u
+      fi
+      export PATH=/opt/ros/noetic/bin:/usr/bin:$PATH
+      ;;
+    *)
+      export PATH=/usr/bin:$PATH
+      if [ "${ROS_DISTRO:-Debian}" != Debian ]; then unset ROS_DISTRO; fi
+      ;;
+  esac
 }
 
 run_catkin_make() {
+  # shellcheck disable=SC2086 # several arguments
   catkin_make -C "$root" --source . "-j$(parallel_jobs)" "$@" --cmake-args -Wno-dev \
-    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DPCRB_WERROR=${PCRB_WERROR:-OFF}"
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "-DPYTHON_EXECUTABLE=$python" "-DPCRB_WERROR=${PCRB_WERROR:-OFF}" ${CMAKE_ARGS:-}
 }
 
 build_workspace() {
@@ -148,13 +223,13 @@ test_workspace() {
   mkdir -p "$root/build/test_results"
   say "test: unit tests and rostests"
   run_catkin_make run_tests || fail "the tests could not be built or run, see above"
-  /usr/bin/python3 "$root/.ci/count_tests.py" "$root/build/test_results"
+  "$python" "$root/.ci/count_tests.py" "$root/build/test_results"
 }
 
 # --- demo -------------------------------------------------------------------------------------------
 
 free_port() {
-  /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
+  "$python" -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
 }
 
 show_demo() {

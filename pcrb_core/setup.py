@@ -26,5 +26,8 @@ class CMakeBuild(build_ext):
 
 
 version = re.search(r'<version>(.*)</version>', (SOURCE / 'package.xml').read_text()).group(1)
-setup(version=version, packages=['pcrb'], package_dir={'': 'python'}, ext_modules=[Extension('pcrb._pcrb', [])],
-      cmdclass={'build_ext': CMakeBuild}, zip_safe=False)
+# Here and not in pyproject.toml, which setuptools reads since 61 only: Ubuntu 20.04 has 45.
+setup(name='pcrb', version=version, description='Metric and files of the point cloud registration benchmark',
+      license='BSD-3-Clause', python_requires='>=3.8', install_requires=['numpy'], packages=['pcrb'],
+      package_dir={'': 'python'}, ext_modules=[Extension('pcrb._pcrb', [])], cmdclass={'build_ext': CMakeBuild},
+      zip_safe=False)

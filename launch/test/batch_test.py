@@ -159,6 +159,11 @@ class BatchTest(TestCase):
         self.assert_ends_well(self.batch('--jobs', '1', prefix=ISOLATED, subset=6))
         self.assertEqual(len(rows(self.run)), 6)
 
+    def test_needs_no_home_folder(self):
+        nowhere = ['env', '-u', 'ROS_HOME', 'HOME=/proc/nowhere']
+        self.assert_ends_well(self.batch('--jobs', '1', prefix=nowhere, subset=2))
+        self.assertEqual(len(rows(self.run)), 2)
+
     def test_wrong_arguments_are_refused(self):
         self.assert_fails(self.batch(run='elsewhere'), 'found `run:=elsewhere`')
         self.assert_fails(self.batch(root='nowhere'), 'root: found `nowhere`, expected an existing folder')

@@ -138,7 +138,7 @@ class EvaluateTest(TestCase):
         with open(self.path('tmp', 'pcrb'), 'w'):
             pass  # what is called so belongs to somebody else
         self.assert_ends_well(self.start(Child(
-            ['cmake', '-S', source, '-B', build, '-DPYTHON_EXECUTABLE=/usr/bin/python3', '-Wno-dev'], **environment)))
+            ['cmake', '-S', source, '-B', build, f'-DPYTHON_EXECUTABLE={sys.executable}', '-Wno-dev'], **environment)))
         tests = self.start(Child(['make', '-C', build, 'run_tests'], **environment))
         self.assert_ends_well(tests)
         report = Report(os.path.join(build, 'test_results'), 'my_node_evaluation')

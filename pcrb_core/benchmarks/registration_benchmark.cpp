@@ -22,7 +22,7 @@
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/registration/registration.hpp"
 #include "real_pairs.hpp"
-#include "registration/pcl_correspondences.hpp"
+#include "registration/pcl_common.hpp"
 
 namespace {
 

@@ -6,7 +6,10 @@ namespace pcrb {
 
 /// Rigid transform in double. A variable's name says its frames: p_target = T_target_source ·
 /// p_source.
-using Transform = Eigen::Isometry3d;
+/// Not aligned to vector registers: it passes between libraries, and Eigen's alignment depends on
+/// the processor that a library was compiled for (-march=native), at the price of no speed that
+/// counts.
+using Transform = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
 /// Tolerance of requireRigid: the largest ‖RᵀR − I‖ (Frobenius) of a rigid transform.
 constexpr double kRigidTolerance = 1e-6;

@@ -1,10 +1,16 @@
 #include "pcrb_core/io/number.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <limits>
+
+#include "io/c_number.hpp"
+
+#if defined(__cpp_lib_to_chars) && __cpp_lib_to_chars >= 201611L
+#define PCRB_STANDARD_CONVERTS_DOUBLES
+#endif
 
 namespace pcrb {
 namespace {
@@ -22,11 +28,25 @@ std::optional<Integer> parseWhole(std::string_view text) noexcept {
 const char* scanAnyDouble(const char* begin, const char* end, double& value) noexcept {
   // from_chars knows no plus sign; "+-1" must not become a number here.
   if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
+#ifdef PCRB_STANDARD_CONVERTS_DOUBLES
   double parsed = 0.0;
   const auto result = std::from_chars(begin, end, parsed);
   if (result.ec != std::errc()) return nullptr;
   value = parsed;
   return result.ptr;
+#else
+  return c_number::scan(begin, end, value);
+#endif
+}
+
+/// The shortest text; kLongestNumber characters are free at `out`.
+char* writeAnyDouble(char* out, double value) noexcept {
+#ifdef PCRB_STANDARD_CONVERTS_DOUBLES
+  return std::to_chars(out, out + kLongestNumber, value).ptr;
+#else
+  const std::string text = c_number::shortest(value);
+  return std::copy(text.begin(), text.end(), out);
+#endif
 }
 
 // What follows reads plain decimals, nearly all numbers of point clouds, in 2/3 of the time of
@@ -198,7 +218,7 @@ std::optional<std::uint64_t> parseUnsigned(std::string_view text) noexcept {
 
 char* writeShortest(char* out, double value) noexcept {
   char* const behind = writeMicros(out, value);
-  return behind != nullptr ? behind : std::to_chars(out, out + kLongestNumber, value).ptr;
+  return behind != nullptr ? behind : writeAnyDouble(out, value);
 }
 
 void appendShortest(std::string& text, double value) {
@@ -213,28 +233,13 @@ std::string formatShortest(double value) {
 }
 
 void appendFixed(std::string& text, double value, int decimals) {
-  const std::size_t start = text.size();
-  // Room for the sign, all integer digits of the largest double and the point.
-  text.resize(start + std::numeric_limits<double>::max_exponent10 + 3 +
-              static_cast<std::size_t>(decimals));
-  char* const first = text.data() + start;
-  const auto result =
-      std::to_chars(first, text.data() + text.size(), value, std::chars_format::fixed, decimals);
-  text.resize(static_cast<std::size_t>(result.ptr - text.data()));
+  text += c_number::fixed(value, decimals);
 }
 
-std::string formatFixed(double value, int decimals) {
-  std::string text;
-  appendFixed(text, value, decimals);
-  return text;
-}
+std::string formatFixed(double value, int decimals) { return c_number::fixed(value, decimals); }
 
 std::string formatScientific(double value, int decimals) {
-  std::string text(16 + static_cast<std::size_t>(decimals), '\0');  // sign, digit, point, e-308
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value,
-                                    std::chars_format::scientific, decimals);
-  text.resize(static_cast<std::size_t>(result.ptr - text.data()));
-  return text;
+  return c_number::scientific(value, decimals);
 }
 
 }  // namespace pcrb

@@ -1,9 +1,8 @@
-#include "registration/feature_matching.hpp"
-
 #include <nanoflann.hpp>
 #include <utility>
 
-#include "registration/blocks.hpp"
+#include "pcrb_core/parallel.hpp"
+#include "registration/features.hpp"
 
 namespace pcrb {
 namespace {
@@ -13,73 +12,66 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 }  // namespace
 
-// Not in an unnamed namespace: FeatureMatcher's index holds it, which unity builds complain of.
-
-/// nanoflann's view of features.
-struct FeatureSet {
-  const std::vector<Fpfh>& values;
-
-  std::size_t kdtree_get_point_count() const { return values.size(); }
-  float kdtree_get_pt(std::size_t index, std::size_t bin) const { return values[index][bin]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-/// Nearest feature by squared Euclidean distance.
-class FeatureTree {
- public:
-  explicit FeatureTree(const std::vector<Fpfh>& features)
-      : set_{features},
-        tree_(kFpfhSize, set_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}
-
-  std::uint32_t nearest(const Fpfh& query) const {
-    std::uint32_t index = 0;
-    float squared_distance = 0.0F;
-    nanoflann::KNNResultSet<float, std::uint32_t> result(1);
-    result.init(&index, &squared_distance);
-    tree_.findNeighbors(result, query.data(), nanoflann::SearchParams());
-    return index;
-  }
-
- private:
-  static constexpr std::size_t kLeafSize = 20;
-  FeatureSet set_;
-  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<float, FeatureSet, float>, FeatureSet,
-                                      kFpfhSize, std::uint32_t>
-      tree_;
-};
-
-namespace {
-
-/// For the chosen features the index of their nearest in a tree.
-std::vector<std::uint32_t> nearestOf(const std::vector<Fpfh>& features,
-                                     const std::vector<std::uint8_t>& chosen,
-                                     const FeatureTree& tree, int threads) {
-  std::vector<std::uint32_t> nearest(features.size(), kNone);
-  forBlocks(features.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (chosen[i] != 0) nearest[i] = tree.nearest(features[i]);
-    }
-  });
-  return nearest;
-}
-
-}  // namespace
-
 FeatureParameters::FeatureParameters(ParameterReader& reader)
     : voxel_leaf(reader.positive("voxel_leaf", 0.2)),
       normal_radius_leaves(reader.number("normal_radius_leaves", 2.0, 1.0, 100.0)),
       feature_radius_leaves(reader.number("feature_radius_leaves", 5.0, 1.0, 100.0)),
       threads(reader.threads()) {}
 
+/// A cloud's features and a search tree of them, nearest by squared Euclidean distance.
 class FeatureMatcher::Index {
  public:
-  explicit Index(FpfhCloud described) : cloud(std::move(described)), tree(cloud.features) {}
+  explicit Index(FpfhCloud described)
+      : cloud(std::move(described)),
+        set_{cloud.features},
+        tree_(kFpfhSize, set_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}
 
-  FpfhCloud cloud;
-  FeatureTree tree;
+  /// For the chosen ones of some features the index of their nearest here.
+  std::vector<std::uint32_t> nearestOf(const std::vector<Fpfh>& features,
+                                       const std::vector<std::uint8_t>& chosen, int threads) const {
+    std::vector<std::uint32_t> found(features.size(), kNone);
+    forBlocks(features.size(), threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (chosen[i] != 0) found[i] = nearest(features[i]);
+      }
+    });
+    return found;
+  }
+
+  const FpfhCloud cloud;
+
+ private:
+  static constexpr std::size_t kLeafSize = 20;
+
+  /// nanoflann's view of features.
+  struct FeatureSet {
+    const std::vector<Fpfh>& values;
+
+    std::size_t kdtree_get_point_count() const { return values.size(); }
+    float kdtree_get_pt(std::size_t index, std::size_t bin) const { return values[index][bin]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+
+  std::uint32_t nearest(const Fpfh& query) const {
+    std::uint32_t index = 0;
+    float squared_distance = 0.0F;
+    nanoflann::KNNResultSet<float, std::uint32_t> result(1);
+    result.init(&index, &squared_distance);
+#if NANOFLANN_VERSION >= 0x150
+    tree_.findNeighbors(result, query.data());
+#else
+    tree_.findNeighbors(result, query.data(), nanoflann::SearchParams());
+#endif
+    return index;
+  }
+
+  FeatureSet set_;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<float, FeatureSet, float>, FeatureSet,
+                                      kFpfhSize, std::uint32_t>
+      tree_;
 };
 
 FeatureMatcher::FeatureMatcher(const FeatureParameters& parameters) : parameters_(parameters) {}
@@ -108,10 +100,10 @@ Matches FeatureMatcher::match(const Points& source) const {
   const auto& source_features = described.cloud.features;
   const auto& target_features = target_->cloud.features;
   const std::vector<std::uint8_t> all(source_features.size(), 1);
-  const auto forth = nearestOf(source_features, all, target_->tree, parameters_.threads);
+  const auto forth = target_->nearestOf(source_features, all, parameters_.threads);
   std::vector<std::uint8_t> chosen(target_features.size(), 0);
   for (const std::uint32_t j : forth) chosen[j] = 1;
-  const auto back = nearestOf(target_features, chosen, described.tree, parameters_.threads);
+  const auto back = described.nearestOf(target_features, chosen, parameters_.threads);
 
   Matches matches;
   for (std::uint32_t i = 0; i < forth.size(); ++i) {

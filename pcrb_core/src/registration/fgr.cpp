@@ -8,7 +8,7 @@
 
 #include "pcrb_core/random.hpp"
 #include "pcrb_core/registration/registry.hpp"
-#include "registration/feature_matching.hpp"
+#include "registration/features.hpp"
 
 namespace pcrb {
 namespace {

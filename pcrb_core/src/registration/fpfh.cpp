@@ -1,10 +1,9 @@
-#include "registration/fpfh.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "registration/blocks.hpp"
-#include "registration/surface.hpp"
+#include "pcrb_core/parallel.hpp"
+#include "pcrb_core/registration/preprocessing.hpp"
+#include "registration/features.hpp"
 
 namespace pcrb {
 namespace {

@@ -9,16 +9,20 @@
 #include <numeric>
 #include <optional>
 
+#include "pcrb_core/parallel.hpp"
+#include "pcrb_core/registration/preprocessing.hpp"
 #include "pcrb_core/registration/registry.hpp"
-#include "registration/blocks.hpp"
-#include "registration/common_parameters.hpp"
-#include "registration/pcl_correspondences.hpp"
-#include "registration/surface.hpp"
+#include "registration/pcl_common.hpp"
 
 namespace pcrb {
 namespace {
 
 using Point = pcl::PointXYZ;
+#if PCL_VERSION_COMPARE(>=, 1, 13, 0)
+using PclGicp = pcl::GeneralizedIterativeClosestPoint<Point, Point, double>;
+#else
+using PclGicp = pcl::GeneralizedIterativeClosestPoint<Point, Point>;
+#endif
 using Covariances = std::vector<Eigen::Matrix3d>;
 
 struct GicpParameters : IcpParameters {
@@ -58,7 +62,7 @@ struct Surface {
 };
 
 /// PCL's optimiser for one set of correspondences.
-class Optimizer : public pcl::GeneralizedIterativeClosestPoint<Point, Point, double> {
+class Optimizer : public PclGicp {
  public:
   explicit Optimizer(int inner_iterations) {
     setMaximumOptimizerIterations(inner_iterations);
@@ -66,12 +70,14 @@ class Optimizer : public pcl::GeneralizedIterativeClosestPoint<Point, Point, dou
   }
 
   /// Improves T for paired points; `information` has the inverse covariance of each pair.
-  void optimize(const PclCloud& source, const PclCloud& target, Covariances information,
+  void optimize(const PclCloud& source, const PclCloud& target, const Covariances& information,
                 Eigen::Matrix4d& T) {
-    mahalanobis_ = std::move(information);
-    pcl::Indices indices(source.size());
+    mahalanobis_.assign(information.begin(), information.end());
+    std::vector<int> indices(source.size());
     std::iota(indices.begin(), indices.end(), 0);
-    estimateRigidTransformationBFGS(source, indices, target, indices, T);
+    PclMatrix4 improved = T.cast<PclScalar>();
+    estimateRigidTransformationBFGS(source, indices, target, indices, improved);
+    T = improved.cast<double>();
   }
 };
 

@@ -1,22 +1,23 @@
 // ICP as the paper runs it, on PCL's IterativeClosestPoint. PCL's loop, median rejector and SVD are
 // used as they are; the nearest-neighbour search (in parallel, tree kept with the target) and the
 // criterion to stop (movement of the source's centroid, where PCL takes that of the frame's origin)
-// are ours.
+// are ours. PCL's pointers are boost's before 1.12: only their own types are spelled here.
 
 #include <pcl/registration/correspondence_rejection_median_distance.h>
 #include <pcl/registration/icp.h>
 
+#include <memory>
 #include <optional>
 
 #include "pcrb_core/registration/registry.hpp"
-#include "registration/common_parameters.hpp"
-#include "registration/pcl_correspondences.hpp"
+#include "registration/pcl_common.hpp"
 
 namespace pcrb {
 namespace {
 
 using Point = pcl::PointXYZ;
 using Criteria = pcl::registration::DefaultConvergenceCriteria<double>;
+using MedianRejector = pcl::registration::CorrespondenceRejectorMedianDistance;
 using Estimation = pcl::registration::CorrespondenceEstimationBase<Point, Point, double>;
 
 constexpr std::size_t kMinIcpPoints = 10;
@@ -32,7 +33,7 @@ class ParallelEstimation : public Estimation {
   void determineReciprocalCorrespondences(pcl::Correspondences&, double) override {
     throw RegistrationFailed("ICP: reciprocal correspondences are not used here");
   }
-  Estimation::Ptr clone() const override { return std::make_shared<ParallelEstimation>(*this); }
+  Estimation::Ptr clone() const override { return Estimation::Ptr(new ParallelEstimation(*this)); }
 
  private:
   const pcrb::KdTree& tree_of_target_;
@@ -81,16 +82,15 @@ class PclIcp : public pcl::IterativeClosestPoint<Point, Point, double> {
     setSearchMethodTarget(tree_, true);
     setSearchMethodSource(tree_reciprocal_, true);
     setInputTarget(target);
-    correspondence_estimation_ =
-        std::make_shared<ParallelEstimation>(target_tree, parameters.threads);
+    correspondence_estimation_.reset(new ParallelEstimation(target_tree, parameters.threads));
     // PCL's distances are squared: so is the factor.
-    auto rejector = std::make_shared<pcl::registration::CorrespondenceRejectorMedianDistance>();
+    const MedianRejector::Ptr rejector(new MedianRejector);
     rejector->setMedianFactor(parameters.rejection_factor * parameters.rejection_factor);
     addCorrespondenceRejector(rejector);
     setMaximumIterations(parameters.max_iterations);
-    criteria_ = std::make_shared<CentroidCriteria>(nr_iterations_, transformation_,
-                                                   final_transformation_, *correspondences_);
-    convergence_criteria_ = criteria_;
+    criteria_ = new CentroidCriteria(nr_iterations_, transformation_, final_transformation_,
+                                     *correspondences_);
+    convergence_criteria_.reset(criteria_);
     epsilon_ = parameters.translation_epsilon;
   }
 
@@ -112,7 +112,7 @@ class PclIcp : public pcl::IterativeClosestPoint<Point, Point, double> {
   }
 
  private:
-  std::shared_ptr<CentroidCriteria> criteria_;
+  CentroidCriteria* criteria_;  // PCL owns it
   double epsilon_ = 0.0;
 };
 

@@ -1,7 +1,7 @@
-#include "registration/max_clique.hpp"
-
 #include <algorithm>
 #include <numeric>
+
+#include "registration/teaser_steps.hpp"
 
 namespace pcrb {
 namespace {

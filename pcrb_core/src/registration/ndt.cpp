@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "pcrb_core/registration/registry.hpp"
-#include "registration/pcl_correspondences.hpp"
+#include "registration/pcl_common.hpp"
 
 namespace pcrb {
 namespace {
@@ -53,13 +53,19 @@ class QuietPcl {
   pcl::console::VERBOSITY_LEVEL level_ = pcl::console::getVerbosityLevel();
 };
 
-class PclNdt : public pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXYZ, double> {
+#if PCL_VERSION_COMPARE(>=, 1, 13, 0)
+using PclNdtBase = pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXYZ, double>;
+#else
+using PclNdtBase = pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXYZ>;
+#endif
+
+class PclNdt : public PclNdtBase {
  public:
   PclNdt(const NdtParameters& parameters, const Points& target) : parameters_(parameters) {
     const QuietPcl quiet;
     setResolution(static_cast<float>(parameters.voxel_leaf));
-    setMinPointPerVoxel(static_cast<unsigned int>(parameters.min_points_per_cell));
-    setOulierRatio(parameters.outlier_ratio);
+    target_cells_.setMinPointPerVoxel(parameters.min_points_per_cell);
+    outlier_ratio_ = parameters.outlier_ratio;  // whose setter has two spellings
     setInputTarget(toPcl(target));
     if (target_cells_.getCentroids() == nullptr || target_cells_.getCentroids()->empty()) {
       throw InvalidProblem("target: found no cell of " + std::to_string(parameters.voxel_leaf) +
@@ -73,24 +79,24 @@ class PclNdt : public pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::Poin
     source_centroid_ = meanOf(source);
     result_ = {};
     PclCloud aligned;
-    align(aligned, guess.matrix());
-    result_.T_target_source = Transform(final_transformation_);
+    align(aligned, guess.matrix().cast<PclScalar>());
+    result_.T_target_source = pose();
     result_.T_target_source.linear() = nearestRotation(result_.T_target_source.linear());
     return result_;
   }
 
  protected:
   /// Algorithm 2 of Magnusson, The three-dimensional normal-distributions transform, 2009.
-  void computeTransformation(PclCloud& moved, const Eigen::Matrix4d& guess) override {
+  void computeTransformation(PclCloud& moved, const PclMatrix4& guess) override {
     prepareMixture();
     final_transformation_ = guess;
     pcl::transformPointCloud(*input_, moved, guess);
-    const Transform start(guess);
-    Vector6d pose;
-    pose << start.translation(), start.rotation().eulerAngles(0, 1, 2);
+    const Transform start(Eigen::Matrix4d(guess.cast<double>()));
+    Vector6d parameters;
+    parameters << start.translation(), start.rotation().eulerAngles(0, 1, 2);
     Vector6d gradient;
     Matrix6d hessian;
-    double score = computeDerivatives(gradient, hessian, moved, pose);
+    double score = computeDerivatives(gradient, hessian, moved, parameters);
     result_.reason = "stopped at the limit of iterations";
     while (result_.iterations < parameters_.max_iterations && !result_.converged) {
       const Eigen::Vector3d before = centroid();
@@ -102,10 +108,10 @@ class PclNdt : public pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::Poin
         return;
       }
       step /= length;
-      const double taken = computeStepLengthMT(pose, step, length, parameters_.max_step,
+      const double taken = computeStepLengthMT(parameters, step, length, parameters_.max_step,
                                                parameters_.translation_epsilon / 2.0, score,
                                                gradient, hessian, moved);
-      pose += taken * step;
+      parameters += taken * step;
       ++result_.iterations;
       // A step that the line search cut short is short for that reason, not for being at the end.
       result_.converged =
@@ -115,7 +121,20 @@ class PclNdt : public pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::Poin
   }
 
  private:
-  Eigen::Vector3d centroid() const { return Transform(final_transformation_) * source_centroid_; }
+  Transform pose() const {
+    return Transform(Eigen::Matrix4d(final_transformation_.cast<double>()));
+  }
+  Eigen::Vector3d centroid() const { return pose() * source_centroid_; }
+
+  // Derivatives of a moved point, by its new and by its old name in PCL.
+  template <class Self>
+  static auto pointJacobian(Self& self, int) -> decltype((self.point_jacobian_)) {
+    return self.point_jacobian_;
+  }
+  template <class Self>
+  static auto pointJacobian(Self& self, long) -> decltype((self.point_gradient_)) {
+    return self.point_gradient_;
+  }
 
   /// Equation 6.8 of Magnusson 2009.
   void prepareMixture() {
@@ -124,8 +143,9 @@ class PclNdt : public pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::Poin
     const double d3 = -std::log(c2);
     gauss_d1_ = -std::log(c1 + c2) - d3;
     gauss_d2_ = -2.0 * std::log((-std::log(c1 * std::exp(-0.5) + c2) - d3) / gauss_d1_);
-    point_jacobian_.setZero();
-    point_jacobian_.block<3, 3>(0, 0).setIdentity();
+    Eigen::Matrix<double, 3, 6>& jacobian = pointJacobian(*this, 0);
+    jacobian.setZero();
+    jacobian.block<3, 3>(0, 0).setIdentity();
     point_hessian_.setZero();
   }
 

@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "pcrb_core/registration/registry.hpp"
-#include "registration/ppcr_association.hpp"
-#include "registration/ppcr_solver.hpp"
+#include "registration/ppcr_steps.hpp"
 
 namespace pcrb {
 namespace {

@@ -1,11 +1,10 @@
-#include "registration/ppcr_association.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 
-#include "registration/blocks.hpp"
+#include "pcrb_core/parallel.hpp"
+#include "registration/ppcr_steps.hpp"
 
 namespace pcrb {
 namespace {
@@ -34,7 +33,7 @@ PpcrAssociation::PpcrAssociation(const KdTree& target, std::size_t source_size,
       cut_quantile_(cut_quantile),
       squared_radius_(static_cast<float>(radius * radius)),
       threads_(threads) {
-  const std::size_t entries = blocks() * neighbors_ * kLanes;
+  const std::size_t entries = blocks() * neighbors_ * kSourceLanes;
   pairs_.x.assign(entries, 0.0F);
   pairs_.y.assign(entries, 0.0F);
   pairs_.z.assign(entries, 0.0F);
@@ -100,10 +99,11 @@ void PpcrAssociation::search(std::size_t point, const Eigen::Vector3f& position,
 }
 
 bool PpcrAssociation::store(std::size_t point, const std::vector<Neighbor>& nearest) {
-  const std::size_t first = (point / kLanes) * neighbors_ * kLanes + point % kLanes;
+  const std::size_t first =
+      (point / kSourceLanes) * neighbors_ * kSourceLanes + point % kSourceLanes;
   bool changed = false;
   for (std::size_t k = 0; k < neighbors_; ++k) {
-    const std::size_t entry = first + k * kLanes;
+    const std::size_t entry = first + k * kSourceLanes;
     const Eigen::Vector3f& y = target_.points()[nearest[k].index];
     changed |= pairs_.candidates[entry] != nearest[k].index;
     pairs_.candidates[entry] = nearest[k].index;

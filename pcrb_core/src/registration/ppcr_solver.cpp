@@ -1,32 +1,32 @@
-#include "registration/ppcr_solver.hpp"
-
 #include <array>
 #include <cmath>
 
+#include "arithmetic.hpp"
+#include "pcrb_core/parallel.hpp"
 #include "pcrb_core/registration/registration.hpp"
-#include "registration/blocks.hpp"
+#include "registration/ppcr_steps.hpp"
 
 namespace pcrb {
 namespace {
 
-using Lanes = std::array<float, kLanes>;
+using Lanes = std::array<float, kSourceLanes>;
 
-/// Weights and weighted residuals of kLanes source points.
+/// Weights and weighted residuals of kSourceLanes source points.
 struct LaneSums {
   Lanes weight{}, x{}, y{}, z{}, cost{};
 };
 
-/// Steps E and M's weights for kLanes source points at (mx, my, mz). The same bits on every
+/// Steps E and M's weights for kSourceLanes source points at (mx, my, mz). The same bits on every
 /// processor: lanes are never added to each other here.
-__attribute__((target_clones("avx2", "default"))) void weighPairs(
-    const PpcrAssociation::Pairs& pairs, std::size_t first, std::size_t neighbors, bool robust,
-    const Lanes& mx, const Lanes& my, const Lanes& mz, LaneSums& sums) {
+PCRB_CLONES_AVX2 void weighPairs(const PpcrAssociation::Pairs& pairs, std::size_t first,
+                                 std::size_t neighbors, bool robust, const Lanes& mx,
+                                 const Lanes& my, const Lanes& mz, LaneSums& sums) {
   constexpr float kFreedom = 5.0F;     // ν
   constexpr float kDimensions = 3.0F;  // d
   Lanes total{};
   for (std::size_t k = 0; k < neighbors; ++k) {
-    const std::size_t entry = first + k * kLanes;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const std::size_t entry = first + k * kSourceLanes;
+    for (std::size_t lane = 0; lane < kSourceLanes; ++lane) {
       const float dx = pairs.x[entry + lane] - mx[lane];
       const float dy = pairs.y[entry + lane] - my[lane];
       const float dz = pairs.z[entry + lane] - mz[lane];
@@ -45,7 +45,7 @@ __attribute__((target_clones("avx2", "default"))) void weighPairs(
       sums.cost[lane] += robust ? w * 2.0F * (root - 1.0F) : w * s;
     }
   }
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  for (std::size_t lane = 0; lane < kSourceLanes; ++lane) {
     const float normalize = total[lane] > 0.0F ? 1.0F / total[lane] : 0.0F;
     sums.weight[lane] *= normalize;
     sums.x[lane] *= normalize;
@@ -102,13 +102,13 @@ PpcrSolver::PpcrSolver(const Points& source, bool robust, int threads)
 
 PpcrSolver::Moments PpcrSolver::expectation(const PpcrAssociation& association,
                                             const Transform& T) const {
-  static_assert(kBlockSize % kLanes == 0);
+  static_assert(kBlockSize % kSourceLanes == 0);
   std::vector<Moments> parts((source_.size() + kBlockSize - 1) / kBlockSize);
   forBlocks(source_.size(), threads_, [&](std::size_t begin, std::size_t end) {
     Moments& part = parts[begin / kBlockSize];
-    for (std::size_t i = begin; i < end; i += kLanes) {
-      const std::size_t count = std::min(kLanes, end - i);
-      std::array<Eigen::Vector3d, kLanes> moved;
+    for (std::size_t i = begin; i < end; i += kSourceLanes) {
+      const std::size_t count = std::min(kSourceLanes, end - i);
+      std::array<Eigen::Vector3d, kSourceLanes> moved;
       Lanes mx{}, my{}, mz{};
       for (std::size_t lane = 0; lane < count; ++lane) {
         moved[lane] = T * source_[i + lane];

@@ -1,11 +1,13 @@
 #include "pcrb_core/registration/preprocessing.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/parallel.hpp"
 #include "pcrb_core/random.hpp"
 
 namespace pcrb {
@@ -44,6 +46,37 @@ std::vector<Keyed> cells(const Points& points, double leaf) {
     keyed.push_back({key, static_cast<std::uint32_t>(keyed.size())});
   }
   return keyed;
+}
+
+constexpr std::size_t kMinNeighbors = 3;
+
+Eigen::Vector3f normalOf(const Points& points, const std::vector<Neighbor>& neighbors) {
+  const Eigen::Vector3d reference = points[neighbors.front().index].cast<double>();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const auto& neighbor : neighbors) {
+    const Eigen::Vector3d offset = points[neighbor.index].cast<double>() - reference;
+    sum += offset;
+    squares += offset * offset.transpose();
+  }
+  const double n = static_cast<double>(neighbors.size());
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(squares - sum * sum.transpose() / n);
+  return solver.eigenvectors().col(0).cast<float>();
+}
+
+template <class Search>
+Points normalsOf(const KdTree& tree, int threads, const Search& search) {
+  const Points& points = tree.points();
+  Points normals(points.size(), Eigen::Vector3f::Zero());
+  forBlocks(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> found;
+    for (std::size_t i = begin; i < end; ++i) {
+      search(points[i], found);
+      if (found.size() >= kMinNeighbors) normals[i] = normalOf(points, found);
+    }
+  });
+  return normals;
 }
 
 }  // namespace
@@ -92,6 +125,18 @@ void requirePoints(const Points& points, std::size_t min, const char* what) {
   if (points.size() >= min) return;
   throw InvalidProblem(std::string(what) + ": found " + std::to_string(points.size()) +
                        " points after filtering, expected at least " + std::to_string(min));
+}
+
+Points surfaceNormals(const KdTree& tree, std::size_t neighbors, int threads) {
+  return normalsOf(tree, threads, [&](const Eigen::Vector3f& point, std::vector<Neighbor>& found) {
+    tree.nearest(point, neighbors, found);
+  });
+}
+
+Points surfaceNormalsWithin(const KdTree& tree, double radius, int threads) {
+  return normalsOf(tree, threads, [&](const Eigen::Vector3f& point, std::vector<Neighbor>& found) {
+    tree.within(point, static_cast<float>(radius), found);
+  });
 }
 
 }  // namespace pcrb

@@ -15,10 +15,11 @@ namespace {
 struct Entry {
   std::string name;
   RegistrationFactory factory;
+  RegistrationLayout layout;
 };
 
-// Two libraries may bring one name: that is reported to whoever loads the second or asks for the
-// name, since nothing can be thrown while a library is being loaded.
+// Two libraries may bring one name: loading the second or asking for the name reports that, since
+// nothing can be thrown while a library registers.
 struct Registry {
   std::mutex mutex;
   std::vector<Entry> entries;                           // in the order of registration
@@ -43,12 +44,31 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string describeLayout(const RegistrationLayout& layout) {
+  const std::array<const char*, 6> names{"interface ", ", Registration of ", ", result of ",
+                                         "/",          ", cloud of ",        "/"};
+  std::string text;
+  for (std::size_t i = 0; i < layout.size(); ++i) text += names[i] + std::to_string(layout[i]);
+  return text + " bytes";
+}
+
+void requireLayout(const Entry& entry, const std::string& place) {
+  if (entry.layout == kRegistrationLayout) return;
+  throw InvalidParameter(place + ": found " + inQuotes(entry.name) + " compiled for " +
+                         describeLayout(entry.layout) + ", expected " +
+                         describeLayout(kRegistrationLayout) +
+                         ": compile it anew, with this release's headers and without flags that "
+                         "change the layout of the standard library");
+}
+
 RegistrationFactory findFactory(const std::string& method) {
   std::vector<RegistrationFactory> found;
   {
     const std::lock_guard<std::mutex> lock(registry().mutex);
     for (const auto& entry : registry().entries) {
-      if (entry.name == method) found.push_back(entry.factory);
+      if (entry.name != method) continue;
+      requireLayout(entry, "method");
+      found.push_back(entry.factory);
     }
   }
   if (found.size() == 1) return found.front();
@@ -60,15 +80,14 @@ RegistrationFactory findFactory(const std::string& method) {
                          std::to_string(found.size()) + " times, expected one method of a name");
 }
 
-/// Names of a library's methods, which are those from `first` on; takes them back if one is taken.
+/// Names of a library's methods, which are those from `first` on.
 std::vector<std::string> acceptLibrary(const std::string& path, std::size_t first) {
-  auto& entries = registry().entries;
+  const auto& entries = registry().entries;
+  for (std::size_t i = first; i < entries.size(); ++i) requireLayout(entries[i], "plugin " + path);
   const std::vector<std::string> all = sortedNames(entries, 0);
   const auto twice = std::adjacent_find(all.begin(), all.end());
   if (twice != all.end()) {
-    const std::string name = *twice;
-    entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(first), entries.end());
-    throw InvalidParameter("plugin: " + path + " registers " + inQuotes(name) +
+    throw InvalidParameter("plugin: " + path + " registers " + inQuotes(*twice) +
                            ", expected a name that is not taken");
   }
   const std::vector<std::string> names = sortedNames(entries, first);
@@ -81,9 +100,10 @@ std::vector<std::string> acceptLibrary(const std::string& path, std::size_t firs
 
 }  // namespace
 
-bool registerMethod(const std::string& name, RegistrationFactory factory) {
+bool registerMethod(const std::string& name, RegistrationFactory factory,
+                    const RegistrationLayout& layout) {
   const std::lock_guard<std::mutex> lock(registry().mutex);
-  registry().entries.push_back({name, std::move(factory)});
+  registry().entries.push_back({name, std::move(factory), layout});
   return true;
 }
 
@@ -126,6 +146,8 @@ std::vector<std::string> loadRegistrationLibrary(const std::string& path) {
   try {
     return registry().libraries[handle] = acceptLibrary(path, first);
   } catch (const InvalidParameter&) {
+    auto& entries = registry().entries;
+    entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(first), entries.end());
     registry().libraries.erase(handle);
     dlclose(handle);
     throw;

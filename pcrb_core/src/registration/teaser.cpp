@@ -3,11 +3,10 @@
 
 #include <cmath>
 
+#include "pcrb_core/parallel.hpp"
 #include "pcrb_core/registration/registry.hpp"
-#include "registration/blocks.hpp"
-#include "registration/feature_matching.hpp"
-#include "registration/max_clique.hpp"
-#include "registration/truncated_least_squares.hpp"
+#include "registration/features.hpp"
+#include "registration/teaser_steps.hpp"
 
 namespace pcrb {
 namespace {

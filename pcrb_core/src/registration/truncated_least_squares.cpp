@@ -1,11 +1,10 @@
-#include "registration/truncated_least_squares.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "pcrb_core/parallel.hpp"
 #include "pcrb_core/transform.hpp"
-#include "registration/blocks.hpp"
+#include "registration/teaser_steps.hpp"
 
 namespace pcrb {
 namespace {

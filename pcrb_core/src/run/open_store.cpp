@@ -8,7 +8,7 @@
 namespace pcrb {
 namespace {
 
-constexpr int kCommonFlags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
+constexpr int kCommonFlags = SQLITE_OPEN_NOMUTEX;
 constexpr const char* kOpen = "open it";
 
 /// Neither version nor tables: a new file, or one whose writer was killed before the tables were

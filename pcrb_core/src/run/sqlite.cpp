@@ -15,6 +15,7 @@ Database::Database(const std::string& path, int flags, const std::string& uri) :
   handle_.reset(handle);
   if (handle == nullptr) throw StoreError(path + ": cannot open it: out of memory");
   if (code != SQLITE_OK) fail("open it");
+  sqlite3_extended_result_codes(handle, 1);
   sqlite3_busy_timeout(handle, kBusyTimeoutMs);
 }
 

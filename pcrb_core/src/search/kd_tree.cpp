@@ -12,9 +12,18 @@ namespace {
 
 constexpr std::size_t kLeafSize = 10;
 
+#if NANOFLANN_VERSION >= 0x150
+using SearchParameters = nanoflann::SearchParameters;
+#else
+using SearchParameters = nanoflann::SearchParams;
+#endif
+
 /// Collects the nearest points, nearest first, directly as Neighbors.
 class NearestSet {
  public:
+  using DistanceType = float;
+  using IndexType = std::uint32_t;
+
   NearestSet(Neighbor* neighbors, std::size_t capacity)
       : neighbors_(neighbors), capacity_(capacity) {}
 
@@ -33,6 +42,7 @@ class NearestSet {
     neighbors_[place] = {index, squared_distance};
     return true;
   }
+  void sort() {}  // nanoflann asks for it since 1.5; they are in order
 
  private:
   Neighbor* neighbors_;
@@ -43,6 +53,9 @@ class NearestSet {
 /// Collects all points closer than a radius.
 class WithinSet {
  public:
+  using DistanceType = float;
+  using IndexType = std::uint32_t;
+
   WithinSet(float squared_radius, std::vector<Neighbor>& neighbors)
       : squared_radius_(squared_radius), neighbors_(neighbors) {}
 
@@ -53,6 +66,7 @@ class WithinSet {
     if (squared_distance < squared_radius_) neighbors_.push_back({index, squared_distance});
     return true;
   }
+  void sort() {}  // in no order
 
  private:
   float squared_radius_;
@@ -102,7 +116,7 @@ const std::vector<Eigen::Vector3f>& KdTree::points() const { return index_->poin
 Neighbor KdTree::nearest(const Eigen::Vector3f& query) const {
   Neighbor neighbor;
   NearestSet result(&neighbor, 1);
-  index_->tree.findNeighbors(result, query.data(), nanoflann::SearchParams());
+  index_->tree.findNeighbors(result, query.data(), SearchParameters());
   return neighbor;
 }
 
@@ -111,14 +125,14 @@ void KdTree::nearest(const Eigen::Vector3f& query, std::size_t count,
   neighbors.resize(std::min(count, points().size()));
   if (neighbors.empty()) return;
   NearestSet result(neighbors.data(), neighbors.size());
-  index_->tree.findNeighbors(result, query.data(), nanoflann::SearchParams());
+  index_->tree.findNeighbors(result, query.data(), SearchParameters());
 }
 
 void KdTree::within(const Eigen::Vector3f& query, float radius,
                     std::vector<Neighbor>& neighbors) const {
   neighbors.clear();
   WithinSet result(radius * radius, neighbors);
-  index_->tree.findNeighbors(result, query.data(), nanoflann::SearchParams());
+  index_->tree.findNeighbors(result, query.data(), SearchParameters());
 }
 
 }  // namespace pcrb

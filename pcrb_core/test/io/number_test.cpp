@@ -10,6 +10,8 @@
 #include <limits>
 #include <random>
 
+#include "io/c_number.hpp"
+
 namespace pcrb {
 namespace {
 
@@ -69,11 +71,70 @@ TEST(Number, ShortestTextReadsBackToTheSameBits) {
   EXPECT_EQ(formatShortest(8045123.123456789), "8045123.123456789");
 }
 
+#if defined(__cpp_lib_to_chars) && __cpp_lib_to_chars >= 201611L
+std::string standardShortest(double value) {
+  char digits[64];
+  return {digits, std::to_chars(digits, digits + 64, value).ptr};
+}
+
+/// As std::from_chars: one past the number, nullptr where there is none.
+const char* standardScan(const char* begin, const char* end, double& value) {
+  const auto result = std::from_chars(begin, end, value);
+  return result.ec == std::errc() ? result.ptr : nullptr;
+}
+
+void expectCLibraryAgrees(double value) {
+  const std::string expected = standardShortest(value);
+  ASSERT_EQ(c_number::shortest(value), expected);
+  double back = 0.0;
+  const char* const end = expected.data() + expected.size();
+  ASSERT_EQ(c_number::scan(expected.data(), end, back), end) << expected;
+  ASSERT_EQ(bitsOf(back), bitsOf(value)) << expected;
+}
+
+TEST(CNumber, AgreesWithTheStandardLibraryToTheBit) {
+  std::mt19937_64 bits(15);
+  for (int i = 0; i < 50000; ++i) {
+    const std::uint64_t pattern = bits();
+    double value = 0.0;
+    std::memcpy(&value, &pattern, sizeof(value));
+    if (std::isfinite(value)) expectCLibraryAgrees(value);
+    expectCLibraryAgrees(static_cast<double>(pattern >> (20 + i % 44)) / 1e6);
+  }
+  for (int exponent = -1074; exponent < 1024; ++exponent) {  // where gaps between doubles change
+    const double value = std::ldexp(1.0, exponent);
+    for (const double near : {value, -value, std::nextafter(value, 0.0)})
+      expectCLibraryAgrees(near);
+  }
+}
+
+TEST(CNumber, StopsWhereTheStandardLibraryStops) {
+  for (const std::string text :
+       {"",         "-",    "1e400",   "1e-400", "4e-324", "2e-324", "0e500",
+        "-0",       "nan",  "NaN(12)", "nan(",   "-nan",   "inf",    "infinit",
+        "INFINITY", "1e",   "1e+",     "1e+5x",  ".5",     "5.",     ".",
+        "-.e3",     "0x10", "1.5f",    "00012",  "1e0005", "+1",     "1.7976931348623159e308",
+        "-1e400"}) {
+    double value = 0.0, expected = 0.0;
+    const char* const end = text.data() + text.size();
+    EXPECT_EQ(c_number::scan(text.data(), end, value), standardScan(text.data(), end, expected))
+        << text;
+    EXPECT_EQ(std::isnan(value), std::isnan(expected)) << text;
+    if (!std::isnan(expected)) {
+      EXPECT_EQ(bitsOf(value), bitsOf(expected)) << text;
+    }
+  }
+}
+#else  // the C library is what the numbers below are held against
+std::string standardShortest(double value) { return c_number::shortest(value); }
+const char* standardScan(const char* begin, const char* end, double& value) {
+  return c_number::scan(begin, end, value);
+}
+#endif
+
 TEST(Number, ShortestTextIsThatOfToChars) {
   const auto expect_like_to_chars = [](double value) {
-    char digits[64];
-    const std::string expected(digits, std::to_chars(digits, digits + 64, value).ptr);
-    ASSERT_EQ(formatShortest(value), expected);
+    ASSERT_EQ(formatShortest(value), standardShortest(value));
   };
   for (const double value :
        {0.0,      -0.0,      1.0,     -1.5,    0.001,     0.0009999,    0.001001,
@@ -96,11 +157,12 @@ TEST(Number, ShortestTextIsThatOfToChars) {
 void expectScansLikeFromChars(const std::string& number) {
   const std::string text = number + " " + std::string(40, '7');
   double expected = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), expected);
-  ASSERT_EQ(result.ec, std::errc()) << number;
+  const char* const expected_behind =
+      standardScan(text.data(), text.data() + text.size(), expected);
+  ASSERT_NE(expected_behind, nullptr) << number;
   double value = 0.0;
   const char* const behind = scanDouble(text.data(), text.data() + text.size(), value);
-  ASSERT_EQ(behind, result.ptr) << number;
+  ASSERT_EQ(behind, expected_behind) << number;
   ASSERT_EQ(bitsOf(value), bitsOf(expected)) << number;
 }
 

@@ -44,6 +44,31 @@ TEST(RegistrationLibrary, HasItsParametersAndCloudsCheckedLikeAnyMethod) {
   EXPECT_THROW(method->setTarget(pcrb_test::shared({})), InvalidProblem);
 }
 
+TEST(RegistrationLibrary, MayBeCompiledForANewerProcessorThanTheSuite) {
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2") == 0) GTEST_SKIP() << "this processor has no AVX2";
+#endif
+  loadRegistrationLibrary(PCRB_TEST_FAST_METHOD);
+  const auto method = makeRegistration("fast_method", {});
+  method->setTarget(pcrb_test::shared(pcrb_test::hall(1)));
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    const Transform guess = pcrb_test::randomMotion(random, 2.0, 5.0);
+    const auto result = method->align(pcrb_test::hall(2), guess);
+    EXPECT_LT((result.T_target_source.matrix() - guess.matrix()).norm(), 1e-9);
+#ifdef __x86_64__
+    EXPECT_GT(result.iterations, EIGEN_MAX_ALIGN_BYTES) << "the library's flags make no difference";
+#endif
+  }
+}
+
+TEST(RegistrationLibrary, IsRefusedWhereItWasCompiledForAnotherInterface) {
+  const std::string message = refusalOf(PCRB_TEST_OTHER_LAYOUT);
+  EXPECT_NE(message.find("'other_layout' compiled for interface"), std::string::npos) << message;
+  EXPECT_NE(message.find("compile it anew"), std::string::npos) << message;
+  EXPECT_THROW(makeRegistration("other_layout", {}), InvalidParameter);
+}
+
 TEST(RegistrationLibrary, IsRefusedWhereItCannotBeLoaded) {
   const std::string message = refusalOf("/nowhere/libmine.so");
   EXPECT_NE(message.find("/nowhere/libmine.so"), std::string::npos) << message;

@@ -1,3 +1,5 @@
+#include "registration/features.hpp"
+
 #include <gtest/gtest.h>
 #include <pcl/features/fpfh.h>
 #include <pcl/features/normal_3d.h>
@@ -5,8 +7,6 @@
 #include <numeric>
 
 #include "pcrb_core/registration/registration.hpp"
-#include "registration/feature_matching.hpp"
-#include "registration/fpfh.hpp"
 #include "support/scenes.hpp"
 
 namespace pcrb {
@@ -26,9 +26,9 @@ FpfhCloud describe(const PointCloud& cloud, int threads = 1) {
 
 /// The same by PCL, with normals towards the centroid.
 pcl::PointCloud<pcl::FPFHSignature33> describeWithPcl(const Points& points) {
-  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
   for (const auto& p : points) cloud->push_back({p.x(), p.y(), p.z()});
-  const auto normals = std::make_shared<pcl::PointCloud<pcl::Normal>>();
+  const pcl::PointCloud<pcl::Normal>::Ptr normals(new pcl::PointCloud<pcl::Normal>);
   pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> normal_estimation;
   normal_estimation.setInputCloud(cloud);
   normal_estimation.setRadiusSearch(kNormalRadius);

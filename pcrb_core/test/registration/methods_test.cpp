@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "pcrb_core/registration/method_parameters.hpp"
+#include "pcrb_core/registration/parameters.hpp"
 #include "pcrb_core/registration/registration.hpp"
 #include "support/scenes.hpp"
 

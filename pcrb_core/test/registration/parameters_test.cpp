@@ -1,9 +1,9 @@
+#include "pcrb_core/registration/parameters.hpp"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "pcrb_core/registration/method_parameters.hpp"
-#include "pcrb_core/registration/parameter_reader.hpp"
 #include "pcrb_core/registration/registration.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "pcrb_core/registration/method_parameters.hpp"
+#include "pcrb_core/registration/parameters.hpp"
 #include "pcrb_core/registration/registration.hpp"
-#include "registration/ppcr_association.hpp"
+#include "registration/ppcr_steps.hpp"
 #include "support/scenes.hpp"
 #include "support/textbook_ppcr.hpp"
 

@@ -14,7 +14,7 @@ namespace {
 
 TEST(VoxelGrid, GivesThePointsOfPclsVoxelGrid) {
   const Points points = pcrb_test::hall(5).points;
-  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
   for (const auto& p : points) cloud->push_back({p.x(), p.y(), p.z()});
   pcl::VoxelGrid<pcl::PointXYZ> grid;
   grid.setInputCloud(cloud);

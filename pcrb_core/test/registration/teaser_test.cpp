@@ -5,8 +5,7 @@
 
 #include "pcrb_core/random.hpp"
 #include "pcrb_core/transform.hpp"
-#include "registration/max_clique.hpp"
-#include "registration/truncated_least_squares.hpp"
+#include "registration/teaser_steps.hpp"
 
 namespace pcrb {
 namespace {

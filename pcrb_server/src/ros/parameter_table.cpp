@@ -129,7 +129,8 @@ std::string relativePathMistake(const std::string& argument, const std::string& 
   if (path.empty() || path.front() == '/') return "";
   return "found `" + path +
          "`, expected an absolute path: roslaunch starts programs in another folder; write " +
-         argument + ":=$PWD/" + path;
+         argument +
+         (path.compare(0, 2, "~/") == 0 ? ":=$HOME/" + path.substr(2) : ":=$PWD/" + path);
 }
 
 // wordexp() of glibc 2.36 takes ${NAME:-other} for an error where unset names are one.

@@ -81,5 +81,11 @@ TEST(ParameterTable, SplitsWordsAtCommasAndBlanks) {
   EXPECT_TRUE(splitWords(" , ").empty());
 }
 
+TEST(RelativePathMistake, SaysWhatToWriteInstead) {
+  EXPECT_EQ(relativePathMistake("run", "/runs/a"), "");
+  EXPECT_NE(relativePathMistake("run", "runs/a").find("run:=$PWD/runs/a"), std::string::npos);
+  EXPECT_NE(relativePathMistake("run", "~/runs/a").find("run:=$HOME/runs/a"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pcrb

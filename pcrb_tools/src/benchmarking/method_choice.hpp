@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "pcrb_core/registration/method_parameters.hpp"
+#include "pcrb_core/registration/parameters.hpp"
 #include "pcrb_core/registration/registration.hpp"
 #include "pcrb_server/node_parameters.hpp"
 

@@ -1,7 +1,10 @@
 #include "benchmarking/shard.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -18,6 +21,16 @@ namespace fs = std::filesystem;
 constexpr std::array<const char*, 5> kErrorPrefixes{
     "benchmark_server: ", "localization_bridge: ", "node_supervisor: ", "cannot start",
     "RLException"};
+
+/// Whether roslaunch can write where it keeps files of its own: with HOME unset or read-only it
+/// cannot, and would end without a word.
+bool isRosHomeWritable() {
+  if (std::getenv("ROS_HOME") != nullptr) return true;
+  const char* const home = std::getenv("HOME");
+  if (home == nullptr) return false;
+  const std::string ros_home = std::string(home) + "/.ros";
+  return ::access(fs::exists(ros_home) ? ros_home.c_str() : home, W_OK) == 0;
+}
 
 }  // namespace
 
@@ -55,6 +68,7 @@ bool Shard::tryStart() {
   if (settings_->scratch.empty()) {
     tmpdir_ = std::make_unique<TemporaryFolder>("pcrb_shard");
     start.environment["TMPDIR"] = tmpdir_->path();
+    if (!isRosHomeWritable()) start.environment["ROS_HOME"] = tmpdir_->path();
   } else {
     const std::string scratch = settings_->scratch + "/shard_" + std::to_string(number_);
     fs::create_directories(scratch);

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -61,8 +62,22 @@ int runChild(const std::vector<std::string>& command) {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+fs::path folderForTemporaryFiles() {
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  if (!error) return folder;
+  const char* const variable = std::getenv("TMPDIR");
+  throw pcrb::InvalidParameter("TMPDIR: found `" +
+                               std::string(variable == nullptr ? "" : variable) +
+                               "`, expected a folder that exists");
+}
+
+}  // namespace
+
 TemporaryFolder::TemporaryFolder(const std::string& name)
-    : path_((fs::temp_directory_path() / (name + "_XXXXXX")).string()) {
+    : path_((folderForTemporaryFiles() / (name + "_XXXXXX")).string()) {
   if (mkdtemp(path_.data()) == nullptr) {
     throw pcrb::InvalidFile(path_, std::string("cannot be made: ") + std::strerror(errno));
   }

@@ -102,7 +102,12 @@ Transfer::Transfer(const DownloadPolicy& policy) : handle_(curl_easy_init()), po
   if (handle_ == nullptr) throw std::bad_alloc();
   const auto set = [this](auto option, auto value) { curl_easy_setopt(handle_, option, value); };
   set(CURLOPT_NOSIGNAL, 1L);
+#if CURL_AT_LEAST_VERSION(7, 85, 0)
   set(CURLOPT_PROTOCOLS_STR, "http,https,ftp,ftps");
+#else
+  set(CURLOPT_PROTOCOLS,
+      static_cast<long>(CURLPROTO_HTTP | CURLPROTO_HTTPS | CURLPROTO_FTP | CURLPROTO_FTPS));
+#endif
   set(CURLOPT_FOLLOWLOCATION, 1L);
   set(CURLOPT_MAXREDIRS, kMaxRedirections);
   set(CURLOPT_COOKIEFILE, "");  // keeps cookies in memory
@@ -151,7 +156,12 @@ std::string Transfer::perform(const std::string& url, const std::string& validat
   const bool is_encrypted = url.compare(0, 6, "https:") == 0;  // and stays so when redirected
   const auto set = [this](auto option, auto value) { curl_easy_setopt(handle_, option, value); };
   set(CURLOPT_URL, url.c_str());
+#if CURL_AT_LEAST_VERSION(7, 85, 0)
   set(CURLOPT_REDIR_PROTOCOLS_STR, is_encrypted ? "https" : "http,https");
+#else
+  set(CURLOPT_REDIR_PROTOCOLS,
+      static_cast<long>(is_encrypted ? CURLPROTO_HTTPS : CURLPROTO_HTTP | CURLPROTO_HTTPS));
+#endif
   set(CURLOPT_HTTPHEADER, headers);
   set(CURLOPT_RANGE, response.offset > 0 ? range.c_str() : nullptr);
   set(CURLOPT_ERRORBUFFER, message.data());

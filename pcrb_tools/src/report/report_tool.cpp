@@ -15,7 +15,7 @@
 namespace pcrb_tools {
 namespace {
 
-constexpr const char* kPython = "/usr/bin/python3";
+constexpr const char* kPython = PCRB_PYTHON;  // the interpreter that CMake found
 
 void addOverlaps(ProblemDetails& details, Section& section) {
   for (const Selection* selection : section.at({"sequence"})) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "common/temporary_folder.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb_tools {
@@ -75,6 +77,19 @@ TEST(ToolMain, ChoiceTakesItsWordsAndNamesThemToWhoeverGivesAnother) {
   } catch (const CLI::ValidationError& error) {
     EXPECT_STREQ(error.what(), "--size: 1 not in {large,small}");
   }
+}
+
+TEST(TemporaryFolder, NamesTheVariableThatLeadsNowhere) {
+  const char* const before = std::getenv("TMPDIR");
+  const std::string value = before == nullptr ? "" : before;
+  setenv("TMPDIR", "/nowhere/tmp", 1);
+  try {
+    const TemporaryFolder folder("pcrb_test");
+    ADD_FAILURE() << "made " << folder.path();
+  } catch (const pcrb::Error& error) {
+    EXPECT_STREQ(error.what(), "TMPDIR: found `/nowhere/tmp`, expected a folder that exists");
+  }
+  before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", value.c_str(), 1);
 }
 
 }  // namespace

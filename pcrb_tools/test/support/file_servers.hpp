@@ -26,7 +26,7 @@ class FileServers {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, to_child[0], STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, from_child[1], STDOUT_FILENO);
-    std::array<std::string, 3> words{"/usr/bin/python3", script, folder};
+    std::array<std::string, 3> words{PCRB_PYTHON, script, folder};
     std::array<char*, 4> argv{words[0].data(), words[1].data(), words[2].data(), nullptr};
     const int error = posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);

@@ -8,8 +8,8 @@
 
 namespace pcrb {
 
-// All conversion between numbers and text of the suite: independent of the locale, and the only
-// file to change for a compiler without std::from_chars of floating point.
+// All conversion between numbers and text of the suite: independent of the locale, of the compiler
+// and of its standard library.
 
 /// Reads the decimal number at the start of [begin, end): a sign or none, fixed or scientific, or
 /// nan, inf, infinity in any case.

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "pcrb_core/search/kd_tree.hpp"
+
 namespace pcrb {
 
 /// Points in m.
@@ -27,5 +29,14 @@ Eigen::Vector3d meanOf(const Points& points);
 /// @param what  `source` or `target`, for the message.
 /// @throws InvalidProblem  if fewer than `min` points are left.
 void requirePoints(const Points& points, std::size_t min, const char* what);
+
+/// Unit normal of each point of a tree, from the covariance of its nearest points, itself included.
+/// Their signs are arbitrary.
+///
+/// @param neighbors  >= 3, at most the number of points.
+Points surfaceNormals(const KdTree& tree, std::size_t neighbors, int threads);
+
+/// The same from all points within `radius` (m); zero where they are fewer than 3.
+Points surfaceNormalsWithin(const KdTree& tree, double radius, int threads);
 
 }  // namespace pcrb

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "pcrb_core/registration/preprocessing.hpp"
 
 namespace pcrb {
 
@@ -47,5 +50,25 @@ struct Clique {
 /// Tomita, Kameda, An efficient branch-and-bound algorithm for finding a maximum clique, 2007; San
 /// Segundo et al., An exact bit-parallel algorithm for the maximum clique problem, 2011.
 Clique maximumClique(const Graph& graph, double max_work);
+
+// The robust estimators of TEASER: least squares whose residuals count up to a bound only. Source:
+// Yang, Shi, Carlone, TEASER: Fast and certifiable point cloud registration, T-RO 2021.
+
+struct RobustRotation {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  int iterations = 0;
+};
+
+/// Rotation R with the least Σ min(‖b − R a‖², bound²) by graduated non-convexity. Vectors are the
+/// differences of all pairs of points: a of `source`, b of `target`.
+///
+/// @param bound  m, of the error of a difference.
+/// Source: Yang, Antonante, Tzoumas, Carlone, Graduated non-convexity for robust spatial
+/// perception, RA-L 2020 (GNC-TLS).
+RobustRotation estimateRotation(const Points& source, const Points& target, double bound,
+                                int max_iterations, int threads);
+
+/// The number t with the least Σ min((x − t)², bound²), by adaptive voting: exact.
+double estimateNumber(const std::vector<double>& values, double bound);
 
 }  // namespace pcrb

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@
 namespace pcrb {
 
 /// Reads a method's parameters from text and collects all mistakes, so that a user sees them at
-/// once. A method reads every parameter that it has in its constructor; whoever made the reader
-/// then calls check().
+/// once. A method reads every parameter that it has in its constructor; the reader's owner then
+/// calls check().
 class ParameterReader {
  public:
   explicit ParameterReader(Parameters parameters) : parameters_(std::move(parameters)) {}
@@ -33,7 +34,7 @@ class ParameterReader {
   int threads();
 
   /// @throws InvalidParameter  listing all mistakes: wrong types, impossible values, and parameters
-  /// that nobody read.
+  /// that the method did not read.
   /// @param method  its name, for the message.
   void check(const std::string& method) const;
 
@@ -47,6 +48,31 @@ class ParameterReader {
   Parameters parameters_;
   Parameters defaults_;
   std::vector<std::string> mistakes_;
+};
+
+/// A method's parameter file, as it was when it was read: what is written into it later changes
+/// nothing.
+///
+/// YAML: one `name: value` a line; values are numbers, true, false or text. A map instead of a
+/// value holds what is different for the data set of that name, and only names that the file has at
+/// its top level:
+///
+///     voxel_leaf: 0.2            # m
+///     tum: {voxel_leaf: 0.1}     # m
+class MethodParameters {
+ public:
+  /// @throws InvalidFile  with file and line, what was found and what was expected.
+  explicit MethodParameters(const std::string& path);
+
+  /// @param data_set  e.g. `tum`; one that the file does not mention gets the top level's values.
+  Parameters of(const std::string& data_set) const;
+
+  /// Those that the file mentions, sorted.
+  std::vector<std::string> dataSets() const;
+
+ private:
+  Parameters values_;
+  std::map<std::string, Parameters> overrides_;  // by data set
 };
 
 }  // namespace pcrb

@@ -1,3 +1,0 @@
-// A library that forgot the line that registers its method.
-
-extern "C" int pcrbTestNothing() { return 0; }
