@@ -36,7 +36,7 @@ std::vector<std::size_t> selectShard(const std::vector<PlannedProblem>& problems
 /// The order in which the problems of a run are served, secret as long as the secret is.
 ///
 /// Sequences come in the order in which the list has them first, each in one piece, and so do its
-/// targets, shuffled, each in one piece over both kinds: a target is handed out once. Within a
+/// targets, shuffled, each in one piece over both kinds: a target is published once. Within a
 /// target the problems are shuffled such that as few as possible follow one of the same source:
 /// none where no source has more than half of them (rounded up).
 ///

@@ -13,7 +13,7 @@
 namespace pcrb {
 
 /// A sensor_msgs/PointCloud2 in the form in which it goes over the wire, made before it is needed:
-/// what is left to do when a source is handed out is to write its stamp.
+/// what is left to do when a source is published is to write its stamp.
 struct SerializedCloud {
   ros::SerializedMessage message;
 

@@ -30,17 +30,17 @@ struct PresentationOptions {
 ///
 /// In either presentation the client gets `applied · source` and is ideally answered by applied⁻¹.
 struct Presentation {
-  Transform applied = Transform::Identity();  ///< source at ground truth → source as handed out
+  Transform applied = Transform::Identity();  ///< source at ground truth → source as published
   Transform guess = Transform::Identity();    ///< T_target_source to start from
 
   /// What is left when a reply is composed with what was applied; identity is perfect.
   Transform residual(const Transform& reply) const { return reply * applied; }
 };
 
-/// Registration: the source is handed out as P · source, the guess is the identity.
+/// Registration: the source is published as P · source, the guess is the identity.
 Presentation presentForRegistration(const Transform& P);
 
-/// Localization: the source is handed out in its sensor's frame as V⁻¹ · source, the guess is P ·
+/// Localization: the source is published in its sensor's frame as V⁻¹ · source, the guess is P ·
 /// V.
 ///
 /// @param V  T_target_sensor, secretly turned (secretSensorPose).

@@ -14,7 +14,7 @@
 
 namespace pcrb {
 
-/// Whom a source is handed out to: a client that has called `ready`, or whoever subscribes.
+/// When a source is published: when a client has called `ready`, or at once.
 enum class Handshake { kReady, kNone };
 
 /// What is asked of a run: the same whenever it goes on, and for all its shards.
