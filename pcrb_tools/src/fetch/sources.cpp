@@ -158,7 +158,7 @@ class SourceReader {
 };
 
 bool isNamed(const std::string& word, const Source& source) {
-  return pcrb::namesSequence(word, source.data_set, source.sequence);
+  return pcrb::namesSequence(word, {source.data_set, source.sequence});
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class Report {
 bool isToBeChecked(const std::vector<std::string>& wanted, const SequenceFiles& files) {
   if (wanted.empty()) return true;
   return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& word) {
-    return pcrb::namesSequence(word, files.data_set, files.sequence);
+    return pcrb::namesSequence(word, {files.data_set, files.sequence});
   });
 }
 
