@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/temporary_folder.hpp"
+#include "common/process.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb_tools {
