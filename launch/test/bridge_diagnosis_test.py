@@ -35,7 +35,8 @@ class BridgeDiagnosisTest(AnsweringTestCase):
         node = self.ill_mannered(server, manner)
         bridge = self.bridge(server, answer_limit=0.2, **parameters)
         rows = list(self.rows_of_bridge(server, bridge).values())
-        node.kill()
+        node.interrupt()  # in order: the master forgets what it published
+        node.wait()
         return rows, bridge.output()
 
     def test_each_bad_manner_has_its_diagnosis_as_the_reason_and_at_the_end(self):

@@ -50,7 +50,7 @@ TEST(SubscriberNames, KnowsObserversByTheBeginningOfTheirNames) {
 }
 
 TEST(SubscriberNames, KnowsRosbagsNodesByTheTimeInTheirNames) {
-  const SubscriberNames names({});
+  const SubscriberNames names(std::vector<std::string>{});
   EXPECT_TRUE(names.isObserver("/record_1700000000"));
   EXPECT_TRUE(names.isObserver("/play_17"));
   EXPECT_FALSE(names.isObserver("/record_"));
