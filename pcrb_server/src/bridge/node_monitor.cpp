@@ -86,7 +86,7 @@ bool NodeMonitor::restart() {
   std::cout << "the node under test cannot be restarted: "
             << (is_answered
                     ? service.response.message
-                    : "nobody answers on " + client.getService() + " (only under node_supervisor)")
+                    : "no node answers on " + client.getService() + " (only under node_supervisor)")
             << std::endl;
   before_.clear();
   return false;
