@@ -10,6 +10,7 @@
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/playback/playback.hpp"
 #include "playback/scene_parts.hpp"
+#include "ros/drawing.hpp"
 
 namespace pcrb {
 
