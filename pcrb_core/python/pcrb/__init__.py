@@ -40,7 +40,7 @@ def _matrix(transform, name):
 
 
 def error(aligned, ground_truth):
-    """The benchmark's error of homologous clouds: Fontana et al. 2021, eq. 1.
+    """The benchmark's error of corresponding clouds: Fontana et al. 2021, eq. 1.
 
     The mean, over the points, of |p_i - g_i| / |p_i - centroid of all p_i|. Points within 1e-9 m of the centroid are
     left out.

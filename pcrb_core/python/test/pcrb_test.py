@@ -58,7 +58,7 @@ class ErrorTest(unittest.TestCase):
         self.assertEqual(pcrb.error(aligned.tolist(), np.asfortranarray(truth)), expected)
         self.assertAlmostEqual(pcrb.error(aligned.astype(np.float32), truth.astype(np.float32)), expected, places=5)
 
-    def test_refuses_what_is_not_homologous(self):
+    def test_refuses_what_does_not_correspond(self):
         truth = some_points()
         with self.assertRaisesRegex(pcrb.InvalidProblem, '199 aligned points and 200'):
             pcrb.error(truth[1:], truth)

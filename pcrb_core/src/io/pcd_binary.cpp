@@ -1,5 +1,6 @@
 #include <lzf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -170,7 +171,9 @@ void readPcdCompressed(const PcdHeader& header, const LineReader& lines, std::si
                    std::to_string(compressed) + " bytes of LZF data",
                "at most " + std::to_string(kLzfLargestRatio) + " times as many");
   }
-  requireMemory(lines, data.size() + uncompressed + pointBytes(header, header.points), memory);
+  // More points than bytes are a lie, which is said below.
+  const std::size_t points = std::min(header.points, uncompressed);
+  requireMemory(lines, data.size() + uncompressed + pointBytes(header, points), memory);
   const std::unique_ptr<char[]> values(new char[uncompressed]);
   if (!decodeLzf(data.substr(0, compressed), values.get(), uncompressed)) {
     lines.fail("broken LZF data", std::to_string(uncompressed) + " bytes after decoding");

@@ -109,7 +109,9 @@ std::vector<Format> formats() {
        }},
       {"KAIST calibration", "RPY: 1 2 3\nR: 1 0 0 0 1 0 0 0 1\nT: 0.5 -1 2\n",
        [](const std::string& text) { return numbersOf(parseKaistCalibration(text, "file")); }},
-      {"KAIST trajectory", "1519102894479453000,1,0,0,5,0,1,0,6,0,0,1,7\n",
+      {"KAIST trajectory",
+       "1519102894479453000,1,0,0,5,0,1,0,6,0,0,1,7\n"
+       "1519102894489453000,1,0,0,5,0,1,0,6,0,0,1,8\n",
        [](const std::string& text) { return numbersOf(parseKaistTrajectory(text, "file")); }},
   };
 }

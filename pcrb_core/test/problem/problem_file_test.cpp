@@ -109,8 +109,9 @@ TEST(ProblemFile, RejectsRowWithThirteenTransformEntries) {
   EXPECT_EQ(messageFor(kHeader + row).substr(0, 28), "file.txt:2: found 17 fields,");
 }
 
-TEST(ProblemFile, RejectsAnEmptyLine) {
-  EXPECT_EQ(messageFor(kHeader + "\n" + kRow).substr(0, 27), "file.txt:2: found 0 fields,");
+TEST(ProblemFile, PassesOverBlankLinesAndCountsThem) {
+  EXPECT_EQ(parse("\n" + kHeader + " \t\n" + kRow + "\n").size(), 1u);
+  EXPECT_EQ(messageFor(kHeader + "\nx\n").substr(0, 26), "file.txt:3: found 1 fields");
 }
 
 TEST(ProblemFile, RejectsIdsThatAreNoDigits) {

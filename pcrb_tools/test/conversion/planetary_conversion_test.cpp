@@ -94,7 +94,7 @@ TEST(PlanetaryConversion, ScansOfTwoSetsAreNotMixed) {
 
 TEST(PlanetaryConversion, AScanWithoutAnyPointIsAnErrorWithItsName) {
   const pcrb_test::TemporaryFolder folder;
-  pcrb_test::writeFile(folder.file("box_met_001.xyz"), "<html>\n");
+  pcrb_test::writeFile(folder.file("box_met_001.xyz"), "no point\n");
   pcrb_test::writeFile(folder.file("box_met_001.gt"), kPose);
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertPlanetary(requestFor(folder, folder.path())),
                     "box_met_001.xyz: found no line with a point");

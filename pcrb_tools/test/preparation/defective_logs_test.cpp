@@ -92,7 +92,7 @@ std::vector<Defect> planetaryDefects() {
       defect("PlanetaryPoseOfThreeRows", "gt", replacing("1 0 0 0\n0 1 0 0\n0 0 1 0\n\n\n"),
              ": found 3 rows"),
       defect("PlanetaryScanWithoutAPoint", "xyz", replacing("\n\n"), ": "),
-      defect("PlanetaryPageForAScan", "xyz", replacing(kPage), ": "),
+      defect("PlanetaryPageForAScan", "xyz", replacing(kPage), ":1: found an HTML page"),
   };
 }
 
@@ -103,8 +103,8 @@ std::vector<Defect> tumDefects() {
              replacingLine(5, "1311877977.6 0.1 0.2 0.3 0 0 1"), ":5: found 6 numbers"),
       defect("TumQuaternionOfNormZero", "-groundtruth.txt",
              replacingLine(5, "1311877977.6 0.1 0.2 0.3 0 0 0 0"), ":5: "),
-      defect("TumStampThroughADouble", "-groundtruth.txt",
-             replacingLine(5, "1.3118779776e+09 0.1 0.2 0.3 0 0 0 1"), ":5: "),
+      defect("TumStampThatIsNoNumber", "-groundtruth.txt",
+             replacingLine(5, "1311877977.6s 0.1 0.2 0.3 0 0 0 1"), ":5: found '1311877977.6s'"),
       defect("TumPageForPoses", "-groundtruth.txt", replacing(kPage), ":1: "),
       defect("TumNoPose", "-groundtruth.txt", replacing("# nothing\n"), ": found no pose"),
       defect("TumBagCutShort", "-2hz-with-pointclouds.bag", cuttingLast(1000), ": "),
