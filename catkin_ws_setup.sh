@@ -83,12 +83,12 @@ names_of_packages() {
   done | sort -u
 }
 
-# CMake fetches the headers of some libraries where apt does not know them (docs/platforms.md).
-without_fetched_headers() {
+# CMake fetches some small libraries where apt does not know them (docs/platforms.md).
+without_fetched_libraries() {
   local package
   while read -r package; do
     case $package in
-      libcli11-dev | libnanoflann-dev) if ! apt-cache show "$package" >/dev/null 2>&1; then continue; fi ;;
+      libcli11-dev | liblzf-dev | libnanoflann-dev) if ! apt-cache show "$package" >/dev/null 2>&1; then continue; fi ;;
     esac
     echo "$package"
   done
@@ -127,7 +127,7 @@ install_dependencies() {
     return
   fi
   mapfile -t names < <(names_of_packages "$kind" "$@")
-  mapfile -t missing < <(missing_debian_packages "${names[@]}" | without_fetched_headers)
+  mapfile -t missing < <(missing_debian_packages "${names[@]}" | without_fetched_libraries)
   if [ ${#missing[@]} = 0 ]; then
     say "deps: all packages are installed (ROS: $kind)"
     return
@@ -135,7 +135,7 @@ install_dependencies() {
   say "deps: installing ${missing[*]}"
   apt_get update || fail "apt-get update failed twice (is there a network?)"
   # Only now does apt know all names.
-  mapfile -t missing < <(missing_debian_packages "${names[@]}" | without_fetched_headers)
+  mapfile -t missing < <(missing_debian_packages "${names[@]}" | without_fetched_libraries)
   apt_get install -y --no-install-recommends "${missing[@]}" ||
     fail "apt-get could not install: ${missing[*]}"
 }

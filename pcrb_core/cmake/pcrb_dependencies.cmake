@@ -1,16 +1,21 @@
-# Libraries of headers alone that some distributions do not have (docs/platforms.md): the installed one,
-# else the release that is named here, checked by its hash. Without a network a local copy will do:
+# Small libraries that some distributions do not have (docs/platforms.md): the installed one, else the
+# release that is named here, checked by its hash. Without a network a local copy will do:
 # -DFETCHCONTENT_SOURCE_DIR_PCRB_CLI11=FOLDER, a folder with include/CLI/CLI.hpp.
 
-# Fetches an archive and makes an imported target of its include/.
-function(pcrb_fetch_headers name target sha256)
+# Fetches an archive; sets ${name}_SOURCE_DIR. A macro, since FetchContent sets that in its caller.
+macro(pcrb_fetch name sha256)
   include(FetchContent)
   FetchContent_Declare(${name} URL ${ARGN} URL_HASH SHA256=${sha256})
   FetchContent_GetProperties(${name})
   if(NOT ${name}_POPULATED)
-    message(STATUS "${target} is not installed: fetching it")
+    message(STATUS "${name} is not installed: fetching it")
     FetchContent_Populate(${name})
   endif()
+endmacro()
+
+# Fetches an archive and makes an imported target of its include/.
+function(pcrb_fetch_headers name target sha256)
+  pcrb_fetch(${name} ${sha256} ${ARGN})
   add_library(${target} INTERFACE IMPORTED GLOBAL)
   set_target_properties(${target} PROPERTIES
     INTERFACE_INCLUDE_DIRECTORIES ${${name}_SOURCE_DIR}/include
@@ -34,6 +39,21 @@ macro(pcrb_find_nanoflann)
       97114f86c2afd9f4fea0c32a926b09904228491cd8a701ab5346f3656e8bb16c
       http://deb.debian.org/debian/pool/main/n/nanoflann/nanoflann_1.7.1+ds.orig.tar.xz
       http://archive.debian.org/debian/pool/main/n/nanoflann/nanoflann_1.7.1+ds.orig.tar.xz)
+  endif()
+endmacro()
+
+# The decoder of LZF: LZF_INCLUDE_DIR and LZF_LIBRARY.
+macro(pcrb_find_lzf)
+  find_path(LZF_INCLUDE_DIR lzf.h PATH_SUFFIXES liblzf)
+  find_library(LZF_LIBRARY lzf)
+  if(NOT LZF_INCLUDE_DIR OR NOT LZF_LIBRARY)
+    pcrb_fetch(pcrb_lzf 9c5de01f7b9ccae40c3f619d26a7abec9986c06c36d260c179cedd04b89fb46a
+      http://deb.debian.org/debian/pool/main/libl/liblzf/liblzf_3.6.orig.tar.gz
+      http://archive.debian.org/debian/pool/main/libl/liblzf/liblzf_3.6.orig.tar.gz)
+    add_library(pcrb_lzf_decoder STATIC ${pcrb_lzf_SOURCE_DIR}/lzf_d.c)
+    set_target_properties(pcrb_lzf_decoder PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    set(LZF_INCLUDE_DIR ${pcrb_lzf_SOURCE_DIR})
+    set(LZF_LIBRARY pcrb_lzf_decoder)
   endif()
 endmacro()
 
