@@ -13,26 +13,26 @@ Transform pose(double x, double y, double z, double roll, double pitch, double y
          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
 }
 
-TEST(BodyFrame, SensorPoseUndoesBodyPose) {
+TEST(Frames, SensorPoseUndoesBodyPose) {
   const Transform T_map_sensor = pose(310, -47, 3, 0.1, -0.2, 2.9);
   const Transform E = pose(0.4, 0, 1.9, 0, 0.17, M_PI);
   EXPECT_TRUE(sensorPose(bodyPose(T_map_sensor, E), E).isApprox(T_map_sensor, 1e-14));
 }
 
-TEST(BodyFrame, ASensorMountedAboveTheBodyIsAboveItInTheMap) {
+TEST(Frames, ASensorMountedAboveTheBodyIsAboveItInTheMap) {
   const Transform E = pose(0, 0, 1.9, 0, 0, M_PI);
   const Transform T_map_body = bodyPose(pose(10, 20, 1.9, 0, 0, 0), E);
   EXPECT_TRUE(T_map_body.isApprox(pose(10, 20, 0, 0, 0, -M_PI), 1e-12));
 }
 
-TEST(BodyFrame, AnOpticalFramesViewingDirectionBecomesX) {
+TEST(Frames, AnOpticalFramesViewingDirectionBecomesX) {
   const Transform T = uprightFromOptical(std::nullopt);
   EXPECT_TRUE((T * Eigen::Vector3d(0, 0, 5)).isApprox(Eigen::Vector3d(5, 0, 0)));   // forward
   EXPECT_TRUE((T * Eigen::Vector3d(3, 0, 0)).isApprox(Eigen::Vector3d(0, -3, 0)));  // right
   EXPECT_TRUE((T * Eigen::Vector3d(0, 2, 0)).isApprox(Eigen::Vector3d(0, 0, -2)));  // down
 }
 
-TEST(BodyFrame, ARolledOpticalFrameIsTurnedUpright) {
+TEST(Frames, ARolledOpticalFrameIsTurnedUpright) {
   const Transform T_map_body = pose(1, 2, 3, 0, 0.3, 1.1);  // looks down a little, level
   const Transform T_body_optical = uprightFromOptical(std::nullopt);
   const Transform T_map_optical =

@@ -12,7 +12,7 @@ constexpr double kStart = 100.0;                // s
 constexpr std::int64_t kSpacing = 100'000'000;  // ns
 constexpr std::int64_t kFirstStamp = 1'000'000'000'000;
 
-class ScanSequenceTest : public testing::Test {
+class ScanScheduleTest : public testing::Test {
  protected:
   ScanSchedule sequence(Kind kind, int count = 2) {
     AcceptanceRule rule;
@@ -38,7 +38,7 @@ class ScanSequenceTest : public testing::Test {
   ResponseTime response_time_;
 };
 
-TEST_F(ScanSequenceTest, SendsTheFirstScanAtOnceAndTheNextAfterAnAnswerAndThePeriod) {
+TEST_F(ScanScheduleTest, SendsTheFirstScanAtOnceAndTheNextAfterAnAnswerAndThePeriod) {
   auto scans = sequence(Kind::kNth);
   EXPECT_EQ(scans.next(kStart), Action::kSendScan);
   send(scans, kStart);
@@ -49,14 +49,14 @@ TEST_F(ScanSequenceTest, SendsTheFirstScanAtOnceAndTheNextAfterAnAnswerAndThePer
   EXPECT_EQ(scans.next(kStart + 0.1001), Action::kSendScan);
 }
 
-TEST_F(ScanSequenceTest, SendsTheNextScanWithoutAnAnswerAfterTheLimit) {
+TEST_F(ScanScheduleTest, SendsTheNextScanWithoutAnAnswerAfterTheLimit) {
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
   EXPECT_EQ(scans.next(kStart + 0.999), Action::kWait);
   EXPECT_EQ(scans.next(kStart + 1.0), Action::kSendScan);
 }
 
-TEST_F(ScanSequenceTest, FollowsANodeThatAnswersAScanWhenTheNextComes) {
+TEST_F(ScanScheduleTest, FollowsANodeThatAnswersAScanWhenTheNextComes) {
   auto scans = sequence(Kind::kNth, 3);
   double now = kStart;
   send(scans, now);
@@ -71,7 +71,7 @@ TEST_F(ScanSequenceTest, FollowsANodeThatAnswersAScanWhenTheNextComes) {
   EXPECT_EQ(scans.scansSent(), 4);
 }
 
-TEST_F(ScanSequenceTest, SendsOneMoreScanAfterTheLastThatCounts) {
+TEST_F(ScanScheduleTest, SendsOneMoreScanAfterTheLastThatCounts) {
   policy_.max_scans = 2;
   auto scans = sequence(Kind::kStable);
   send(scans, kStart);
@@ -86,7 +86,7 @@ TEST_F(ScanSequenceTest, SendsOneMoreScanAfterTheLastThatCounts) {
   EXPECT_EQ(scans.reason(kStart + 1.3), "not settled after 3 scans: the last answer");
 }
 
-TEST_F(ScanSequenceTest, SendsNoMoreOnceTheLastThatCountsIsAnswered) {
+TEST_F(ScanScheduleTest, SendsNoMoreOnceTheLastThatCountsIsAnswered) {
   policy_.max_scans = 2;
   auto scans = sequence(Kind::kStable);
   for (int scan = 1; scan <= 2; ++scan) {
@@ -96,7 +96,7 @@ TEST_F(ScanSequenceTest, SendsNoMoreOnceTheLastThatCountsIsAnswered) {
   EXPECT_EQ(scans.next(kStart + 2.5), Action::kSubmit);
 }
 
-TEST_F(ScanSequenceTest, TheScanAfterTheLastDoesNotCount) {
+TEST_F(ScanScheduleTest, TheScanAfterTheLastDoesNotCount) {
   policy_.max_scans = 1;
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
@@ -106,7 +106,7 @@ TEST_F(ScanSequenceTest, TheScanAfterTheLastDoesNotCount) {
   EXPECT_EQ(scans.next(kStart + 2.0), Action::kGiveUp);
 }
 
-TEST_F(ScanSequenceTest, AtTheDeadlineTheLastAnswerIsSubmitted) {
+TEST_F(ScanScheduleTest, AtTheDeadlineTheLastAnswerIsSubmitted) {
   auto scans = sequence(Kind::kDeadline);
   send(scans, kStart);
   answer(scans, kStart + 0.01, 1);
@@ -118,27 +118,27 @@ TEST_F(ScanSequenceTest, AtTheDeadlineTheLastAnswerIsSubmitted) {
   EXPECT_EQ(scans.reason(kStart + 9.0), "");
 }
 
-TEST_F(ScanSequenceTest, ASilentNodeIsGivenUpAtTheDeadlineWithTheReason) {
+TEST_F(ScanScheduleTest, ASilentNodeIsGivenUpAtTheDeadlineWithTheReason) {
   auto scans = sequence(Kind::kFirst);
   for (double now = kStart; now < kStart + 9.0; now += 1.0) send(scans, now);
   EXPECT_EQ(scans.next(kStart + 9.0), Action::kGiveUp);
   EXPECT_EQ(scans.reason(kStart + 9.0), "the node said nothing to 9 scans");
 }
 
-TEST_F(ScanSequenceTest, MatchesStampsThatWentThroughMicroseconds) {
+TEST_F(ScanScheduleTest, MatchesStampsThatWentThroughMicroseconds) {
   auto scans = sequence(Kind::kFirst);
   scans.scanSent(kStart, kFirstStamp + 123);
   EXPECT_TRUE(scans.answerReceived(kStart, kFirstStamp, Transform::Identity(), std::nullopt));
 }
 
-TEST_F(ScanSequenceTest, RefusesAnswersToScansOfAnotherProblem) {
+TEST_F(ScanScheduleTest, RefusesAnswersToScansOfAnotherProblem) {
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
   EXPECT_FALSE(scans.answerReceived(kStart, stamp(0), Transform::Identity(), std::nullopt));
   EXPECT_EQ(scans.next(kStart + 0.5), Action::kWait);
 }
 
-TEST_F(ScanSequenceTest, MatchesByArrivalWhereStampsSayNothing) {
+TEST_F(ScanScheduleTest, MatchesByArrivalWhereStampsSayNothing) {
   policy_.match_by_stamp = false;
   auto scans = sequence(Kind::kNth, 2);
   EXPECT_FALSE(
@@ -152,7 +152,7 @@ TEST_F(ScanSequenceTest, MatchesByArrivalWhereStampsSayNothing) {
   EXPECT_EQ(scans.next(kStart + 1.0), Action::kSubmit);
 }
 
-TEST_F(ScanSequenceTest, ANodeFinishesWhenItHasAnsweredTheLastScanNotWithALateAnswerToAnOlderOne) {
+TEST_F(ScanScheduleTest, ANodeFinishesWhenItHasAnsweredTheLastScanNotWithALateAnswerToAnOlderOne) {
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
   send(scans, kStart + 1.0);
@@ -163,7 +163,7 @@ TEST_F(ScanSequenceTest, ANodeFinishesWhenItHasAnsweredTheLastScanNotWithALateAn
   EXPECT_EQ(scans.timeToFinish(kStart + 3.0), 0.0);
 }
 
-TEST_F(ScanSequenceTest, ANodeMayFinishAfterTheDeadline) {
+TEST_F(ScanScheduleTest, ANodeMayFinishAfterTheDeadline) {
   auto scans = sequence(Kind::kDeadline);
   send(scans, kStart);
   answer(scans, kStart + 5.0, 1);
@@ -172,13 +172,13 @@ TEST_F(ScanSequenceTest, ANodeMayFinishAfterTheDeadline) {
   EXPECT_NEAR(scans.timeToFinish(kStart + 9.0), 6.1, 1e-9);
 }
 
-TEST_F(ScanSequenceTest, ANodeThatNeverAnsweredHasAsLongAgainAsItWasSentScansFor) {
+TEST_F(ScanScheduleTest, ANodeThatNeverAnsweredHasAsLongAgainAsItWasSentScansFor) {
   auto scans = sequence(Kind::kFirst);
   for (double now = kStart; now < kStart + 9.0; now += 1.0) send(scans, now);
   EXPECT_NEAR(scans.timeToFinish(kStart + 9.0), 7.0, 1e-9);
 }
 
-TEST_F(ScanSequenceTest, ANodeThatHeldItsLastScanInVainIsNotWaitedForAgain) {
+TEST_F(ScanScheduleTest, ANodeThatHeldItsLastScanInVainIsNotWaitedForAgain) {
   auto first = sequence(Kind::kFirst);
   send(first, kStart);
   send(first, kStart + 1.0);
@@ -197,14 +197,14 @@ TEST_F(ScanSequenceTest, ANodeThatHeldItsLastScanInVainIsNotWaitedForAgain) {
   EXPECT_FALSE(second.responseTimeAtEnd(kStart + 3.2).holdsLastScan());
 }
 
-TEST_F(ScanSequenceTest, ASilentNodeHoldsMoreThanItsLastScan) {
+TEST_F(ScanScheduleTest, ASilentNodeHoldsMoreThanItsLastScan) {
   response_time_.setHoldsLastScan(true);
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
   EXPECT_GT(scans.timeToFinish(kStart + 0.5), 0.0);
 }
 
-TEST_F(ScanSequenceTest, ASlowNodeIsGivenTheTimeThatItNeedsBeforeTheNextScan) {
+TEST_F(ScanScheduleTest, ASlowNodeIsGivenTheTimeThatItNeedsBeforeTheNextScan) {
   response_time_.add(1.5);
   auto scans = sequence(Kind::kNth);
   send(scans, kStart);
@@ -212,7 +212,7 @@ TEST_F(ScanSequenceTest, ASlowNodeIsGivenTheTimeThatItNeedsBeforeTheNextScan) {
   EXPECT_EQ(scans.next(kStart + 3.0), Action::kSendScan);
 }
 
-TEST_F(ScanSequenceTest, AnEchoOfTheInitialPoseIsNoEndOfWork) {
+TEST_F(ScanScheduleTest, AnEchoOfTheInitialPoseIsNoEndOfWork) {
   ScanSchedule scans(policy_, {}, Transform::Identity(), kStart);
   send(scans, kStart);
   scans.answerReceived(kStart + 0.1, stamp(1), Transform::Identity(), std::nullopt);
@@ -220,7 +220,7 @@ TEST_F(ScanSequenceTest, AnEchoOfTheInitialPoseIsNoEndOfWork) {
   EXPECT_FALSE(scans.responseTimeAtEnd(kStart + 0.1).isKnown());
 }
 
-TEST_F(ScanSequenceTest, AfterAnEchoTheNextScanWaitsForTheAnswerAsLongAsOneTakes) {
+TEST_F(ScanScheduleTest, AfterAnEchoTheNextScanWaitsForTheAnswerAsLongAsOneTakes) {
   ScanSchedule unknown(policy_, {}, Transform::Identity(), kStart);
   send(unknown, kStart);
   unknown.answerReceived(kStart + 0.01, stamp(1), Transform::Identity(), std::nullopt);
@@ -236,7 +236,7 @@ TEST_F(ScanSequenceTest, AfterAnEchoTheNextScanWaitsForTheAnswerAsLongAsOneTakes
   EXPECT_EQ(known.next(kStart + 0.401), Action::kSendScan);
 }
 
-TEST_F(ScanSequenceTest, WithoutStampsAnAnswerEndsTheWorkOnTheOldestScan) {
+TEST_F(ScanScheduleTest, WithoutStampsAnAnswerEndsTheWorkOnTheOldestScan) {
   policy_.match_by_stamp = false;
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);
