@@ -101,6 +101,8 @@ def bounds(low, high):
 
 
 def words_of(value):
+    if isinstance(value, float):
+        return f'{value:g}'
     return ' '.join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
 
 

@@ -49,7 +49,12 @@ def shared(option):
     if name == 'jobs' and default != 1:
         default, shown = None, 'all processors'
     return dataclasses.replace(known, default=default, required=option.required, many=known.many or option.many,
-                               choices=option.choices or known.choices, source=option.source, shown_default=shown)
+                               choices=in_order(option.choices, known.choices), source=option.source, shown_default=shown)
+
+
+def in_order(choices, known):
+    """What a program takes, in the order in which the shared word lists it."""
+    return tuple(word for word in known if word in choices) if choices and set(choices) <= set(known) else choices or known
 
 
 def described(name):
