@@ -42,6 +42,7 @@ def paper_mistakes(values):
 
 
 CLIENT = Option('client', 'command that starts a client of your own, in place of a method of this suite', metavar='COMMAND')
+LOG_FRAME = {'frame': {'name': 'log-frame'}}  # score has the other frame
 ROOTED = {'root': {'required': True}}
 
 COMMANDS = [
@@ -49,7 +50,7 @@ COMMANDS = [
             'pcrb prepare --logs ~/logs --root ~/pcrb --sequences eth/apartment'),
     Command('fetch', 'data', 'download the published data sets, and verify them', Tool('fetch_datasets', changes={
         'from': {'kind': 'folder'}}), 'pcrb fetch --logs ~/logs --root ~/pcrb --sequences eth/plain'),
-    *(Command(f'convert {data_set}', 'data', f'a log in the original format of {name} to clouds', Tool(f'{data_set}_to_pcd'),
+    *(Command(f'convert {data_set}', 'data', f'a log in the original format of {name} to clouds', Tool(f'{data_set}_to_pcd', changes=LOG_FRAME),
               f'pcrb convert {data_set} ~/logs/{data_set}/{log} --root ~/pcrb')
       for data_set, name, log in (('eth', 'ETH', 'apartment'), ('planetary', 'the planetary data set', 'p2at_met'),
                                   ('tum', 'TUM RGB-D', 'pioneer_slam.bag'), ('kaist', 'KAIST Urban', 'urban05'))),

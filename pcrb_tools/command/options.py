@@ -96,7 +96,7 @@ class Option:
 
 def bounds(low, high):
     if high is None or high >= 1e6:
-        return f'at least {low:g}'
+        return 'more than 0' if 0 < low < 1e-6 else f'at least {low:g}'
     return f'at most {high:g}' if low is None else f'{low:g} to {high:g}'
 
 

@@ -71,6 +71,8 @@ def parse_description(fields):
     span = re.search(r'in \[(\S+) - (\S+)\]', limits)
     low, high = (float(span[1]), float(span[2])) if span else NUMBER_LIMITS.get(limits, (None, None))
     base = {'INT': 'int', 'UINT': 'int', 'FLOAT': 'number'}.get(base, 'text') if int(most) > 0 else 'flag'
+    if base == 'int' and limits == 'POSITIVE':
+        low = 1
     if kind.startswith('UINT') and low is None:
         low = 0
     name = (long.split(',')[0] if long else place.lower()).replace('_', '-')
