@@ -1,8 +1,9 @@
+#include "conversion/raw_scans.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "conversion/raw_scans.hpp"
 #include "pcrb_core/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"

@@ -1,8 +1,9 @@
+#include "conversion/tum_stream.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "conversion/tum_stream.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb_tools {
