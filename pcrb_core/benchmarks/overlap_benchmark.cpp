@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_core/search/coverage.hpp"
+#include "search/coverage.hpp"
 #include "synthetic_scans.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/parallel.hpp"
-#include "pcrb_core/search/coverage.hpp"
+#include "search/coverage.hpp"
 
 namespace pcrb {
 namespace {

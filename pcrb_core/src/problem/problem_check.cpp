@@ -6,10 +6,10 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/dataset_check.hpp"
-#include "pcrb_core/problem/frame_offset.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
+#include "problem/frame_offset.hpp"
 
 namespace pcrb {
 namespace {

@@ -1,4 +1,4 @@
-#include "pcrb_core/search/cell_grid.hpp"
+#include "search/cell_grid.hpp"
 
 #include <algorithm>
 #include <array>

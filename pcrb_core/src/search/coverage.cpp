@@ -1,4 +1,4 @@
-#include "pcrb_core/search/coverage.hpp"
+#include "search/coverage.hpp"
 
 #include <algorithm>
 #include <cmath>

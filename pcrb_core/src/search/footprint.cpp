@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "pcrb_core/search/cell_grid.hpp"
+#include "search/cell_grid.hpp"
 
 namespace pcrb {
 namespace {

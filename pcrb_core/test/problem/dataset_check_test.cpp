@@ -8,10 +8,10 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_core/problem/frame_offset.hpp"
 #include "pcrb_core/problem/overlap.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
+#include "problem/frame_offset.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 

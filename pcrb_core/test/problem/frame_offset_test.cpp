@@ -1,4 +1,4 @@
-#include "pcrb_core/problem/frame_offset.hpp"
+#include "problem/frame_offset.hpp"
 
 #include <gtest/gtest.h>
 

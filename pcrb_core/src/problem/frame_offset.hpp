@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "pcrb_core/problem/frame_offset.hpp"
 #include "pcrb_core/transform.hpp"
 
 namespace pcrb {

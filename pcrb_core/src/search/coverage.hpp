@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pcrb_core/search/block_table.hpp"
-#include "pcrb_core/search/cell_grid.hpp"
+#include "search/cell_grid.hpp"
 
 namespace pcrb {
 
