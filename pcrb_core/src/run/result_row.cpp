@@ -89,6 +89,11 @@ void bindPose(const Result& result, Statement& statement) {
   }
 }
 
+/// The row, for messages.
+std::string whereOf(const Result& result, const std::string& path) {
+  return path + ": result of " + result.key.subject() + ": ";
+}
+
 std::optional<double> optionalReal(const Statement& row, int column) {
   if (row.isNull(column)) return std::nullopt;
   return row.real(column);
@@ -109,6 +114,14 @@ void readPose(const Statement& row, int first_column, Result& result) {
   if (!row.isNull(first_column + 3)) {
     result.orientation = Eigen::Quaterniond(at(6), at(3), at(4), at(5));
   }
+}
+
+/// SQLite takes any text for a number, and 0 for its value: a perfect score.
+void requireNumber(const Statement& row, int column, const std::string& where) {
+  const int type = row.type(column);
+  if (type == SQLITE_FLOAT || type == SQLITE_INTEGER || type == SQLITE_NULL) return;
+  throw StoreError(where + "found " + row.name(column) + " = `" + printableText(row.text(column)) +
+                   "`, expected a number");
 }
 
 /// A number's name and the range that it must lie in.
@@ -161,10 +174,13 @@ ProblemKey readKey(const Statement& row, const std::string& path) try {
 }
 
 Result readResult(const Statement& row, const std::string& path) try {
+  constexpr int kOverlap = 6, kError = 9, kCovariance = 25, kFinished = 26;
   Result result;
-  int column = 0;
   result.key = readKey(row, path);
-  column = 4;
+  const std::string where = whereOf(result, path);
+  for (int i = kError; i < kCovariance; ++i) requireNumber(row, i, where);
+  for (const int i : {kOverlap, kFinished}) requireNumber(row, i, where);
+  int column = 4;
   result.source = row.text(column++);
   result.target = row.text(column++);
   result.overlap = row.real(column++);
@@ -184,6 +200,7 @@ Result readResult(const Statement& row, const std::string& path) try {
   column += 7;
   if (!row.isNull(column)) result.covariance = parseCovariance(row.text(column), path);
   result.finished = row.real(++column);
+  requireStorable(result, path);
   return result;
 } catch (const InvalidParameter& error) {
   throw StoreError(path + ": " + error.what());
@@ -201,7 +218,7 @@ void requireStorable(const Result& result, const std::string& path) {
       {"solver_time_s", result.solver_time.value_or(0.0), 0.0, kMax},
       {"finished", result.finished, -kMax, kMax},
   };
-  const std::string where = path + ": result of " + result.key.subject() + ": ";
+  const std::string where = whereOf(result, path);
   for (const Bounded& number : numbers) {
     if (number.value >= number.min && number.value <= number.max) continue;
     throw StoreError(where + "found " + number.name + " = " + formatShortest(number.value) +

@@ -78,6 +78,7 @@ class Statement {
   int columns() const { return sqlite3_column_count(handle_.get()); }
   bool isNull(int column) const { return type(column) == SQLITE_NULL; }
   int type(int column) const { return sqlite3_column_type(handle_.get(), column); }
+  std::string name(int column) const { return sqlite3_column_name(handle_.get(), column); }
   std::string text(int column) const;
   double real(int column) const { return sqlite3_column_double(handle_.get(), column); }
   std::int64_t integer(int column) const { return sqlite3_column_int64(handle_.get(), column); }

@@ -24,7 +24,7 @@ std::string insertResultSql();
 void bindResult(const Result& result, Statement& statement);
 
 /// Reads a row of `SELECT kResultColumns`.
-/// @throws StoreError  if a value is not what bindResult writes.
+/// @throws StoreError  naming row and column, if a value is not what bindResult writes.
 Result readResult(const Statement& row, const std::string& path);
 
 /// Reads the key from the first four columns of a row.

@@ -304,6 +304,29 @@ TEST_F(ResultsStoreTest, RefusesValuesThatItWouldNotHaveWritten) {
   expectError<StoreError>([&] { reader().finished(); }, database(), "both", "expected");
 }
 
+TEST_F(ResultsStoreTest, ReadsAsStrictlyAsItWritesNamingRowAndColumn) {
+  const std::vector<std::pair<std::string, std::string>> changes{
+      {"error = 'abc'", "found error = `abc`, expected a number"},
+      {"error = -1", "found error = -1, expected 0 to"},
+      {"error = 9e999", "found error = inf, expected 0 to"},
+      {"overlap = 7", "found overlap = 7, expected 0 to 1"},
+      {"overlap = 'half'", "found overlap = `half`"},
+      {"runtime_s = -1", "found runtime_s = -1"},
+      {"rotation_error_rad = 4", "found rotation_error_rad = 4"},
+      {"qw = 'x'", "found qw = `x`"},
+      {"scans_used = 'many'", "found scans_used = `many`"},
+      {"finished = 'today'", "found finished = `today`"}};
+  { writer().add(fullResult("1")); }
+  for (const auto& [change, message] : changes) {
+    const std::string sql = "UPDATE result SET " + change;
+    const std::string good = readFile(database());
+    runSql(database(), sql.c_str());
+    expectError<StoreError>([&] { reader().results(); }, database(), "result of ", message);
+    makeDatabase(good);
+  }
+  EXPECT_EQ(reader().results().size(), 1u);
+}
+
 TEST_F(ResultsStoreTest, StartsAnewFromTheEmptyFileOfAWriterKilledAtOnce) {
   makeDatabase("");
   expectError<StoreError>([&] { reader(); }, database(), "empty database");
