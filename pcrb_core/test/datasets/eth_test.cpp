@@ -47,7 +47,7 @@ TEST(EthScan, RejectsAHeaderWithoutXYZ) {
   PCRB_EXPECT_ERROR(InvalidFile, parseEthScan("a, x, y, w\n1, 2, 3, 4\n", "a.csv"), "a.csv:1: ");
   PCRB_EXPECT_ERROR(InvalidFile, parseEthScan("x, y, z, X\n1, 2, 3, 4\n", "a.csv"),
                     "one column each");
-  PCRB_EXPECT_ERROR(InvalidFile, parseEthScan("<!DOCTYPE html>\n", "a.csv"), "'<!DOCTYPE html>'");
+  PCRB_EXPECT_ERROR(InvalidFile, parseEthScan("<!DOCTYPE html>\n", "a.csv"), "an HTML page");
 }
 
 TEST(EthScan, RejectsARowThatIsCutShort) {
