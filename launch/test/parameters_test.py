@@ -61,7 +61,7 @@ class ParametersTest(TestCase):
         """0 would be false: replay would show the ground truth."""
         for file, arguments, pattern in (
                 ('replay.launch', {'root': '/r', 'sequence': '00', 'truth': 'false', 'rviz': 'false'},
-                 r'/pcrb/replay/truth: false'),
+                 r'/pcrb/replay/publish_ground_truth: false'),
                 ('localization.launch', {'root': '/r', 'run': '/run', 'node_launch': '/x.launch', 'node_args': '5'},
                  r'/pcrb/benchmark_server/under_test: /x.launch 5'),
                 ('paper.launch', {'root': '/r', 'run': '/run', 'methods': '0'}, '')):
