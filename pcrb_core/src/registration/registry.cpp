@@ -38,12 +38,6 @@ std::vector<std::string> sortedNames(const std::vector<Entry>& entries, std::siz
   return names;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 std::string describeLayout(const RegistrationLayout& layout) {
   const std::array<const char*, 6> names{"interface ", ", Registration of ", ", result of ",
                                          "/",          ", cloud of ",        "/"};

@@ -34,12 +34,6 @@ std::string sequenceNameOf(const ScoredProblem& problem) {
   return problem.key.data_set + "/" + problem.key.sequence;
 }
 
-std::string joined(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// Sequences of the results whose ground truth has a known accuracy.
 std::set<std::string> sequencesWithAccuracy(const std::string& path,
                                             const std::vector<GroundTruth>& accuracies,
@@ -53,11 +47,13 @@ std::set<std::string> sequencesWithAccuracy(const std::string& path,
     (here.count(name) > 0 ? known : elsewhere).insert(name);
   }
   if (known.empty()) {
-    throw pcrb::InvalidFile(path, 0, elsewhere.empty() ? "no row" : "only " + joined(elsewhere),
-                            "a sequence of the results: " + joined(here));
+    throw pcrb::InvalidFile(path, 0,
+                            elsewhere.empty() ? "no row" : "only " + pcrb::joined(elsewhere),
+                            "a sequence of the results: " + pcrb::joined(here));
   }
   if (!elsewhere.empty()) {
-    std::cerr << path << ": not in the results, so not shown: " << joined(elsewhere) << std::endl;
+    std::cerr << path << ": not in the results, so not shown: " << pcrb::joined(elsewhere)
+              << std::endl;
   }
   return known;
 }
@@ -79,7 +75,7 @@ void addErrorsPerMetre(const ReportOptions& options, const std::set<std::string>
   if (!details.empty()) progress.finish();
   if (missing.empty()) return;
   std::cerr << options.ground_truth << ": no floor, which takes the clouds (--root says where they "
-            << "are): " << joined(missing) << std::endl;
+            << "are): " << pcrb::joined(missing) << std::endl;
 }
 
 /// Median over a sequence's sources of the metric of a translation of 1 m.
