@@ -112,7 +112,7 @@ TEST(RunInfo, RefusesATextThatIsNoValueOfItsKey) {
         [&, k = key, t = text] {
           RunInfo::read({{k, t}}, "a.sqlite");
         },
-        "a.sqlite: run table, " + key, "found `");
+        "a.sqlite: run table, " + key, "found ");
   }
 }
 
