@@ -46,6 +46,8 @@ def shared(option):
         return dataclasses.replace(option, name=name)
     default = known.default if option.default is None and not option.required else option.default
     shown = option.shown_default or known.shown_default
+    if isinstance(default, str) and (known.many or option.many):
+        default = default.split()
     if name == 'jobs' and default != 1:
         default, shown = None, 'all processors'
     return dataclasses.replace(known, default=default, required=option.required, many=known.many or option.many,
