@@ -64,7 +64,7 @@ class ParametersTest(TestCase):
                  r'/pcrb/replay/publish_ground_truth: false'),
                 ('localization.launch', {'root': '/r', 'run': '/run', 'node_launch': '/x.launch', 'node_args': '5'},
                  r'/pcrb/benchmark_server/under_test: /x.launch 5'),
-                ('paper.launch', {'root': '/r', 'run': '/run', 'methods': '0'}, '')):
+                ('paper.launch', {'root': '/r', 'run': '/run', 'methods': '0'}, r'\{\}')):
             dump = self.start(Child(['roslaunch', '--dump-params', 'pcrb_launch', file,
                                      *(f'{name}:={value}' for name, value in arguments.items())]))
             self.assert_ends_well(dump)
