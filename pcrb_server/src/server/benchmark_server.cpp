@@ -146,11 +146,13 @@ bool BenchmarkServer::serve(PreparedProblem prepared) {
 }
 
 /// @param had_readers  before the summary was published: they may have left by now.
-void BenchmarkServer::waitForReaders(bool had_readers) {
+/// @param departures   of readers, up to then: one that comes and leaves between two looks counts.
+void BenchmarkServer::waitForReaders(bool had_readers, int departures) {
   const auto end =
       ProblemSession::Clock::now() + std::chrono::duration<double>(parameters_.summary_hold_time);
   while (!shutdown_.requested() && ProblemSession::Clock::now() < end) {
     const bool has_readers = publications_.hasSummaryReaders();
+    had_readers = had_readers || publications_.summaryDepartures() > departures;
     if (had_readers && !has_readers) return;  // clients have read it and ended
     had_readers = has_readers;
     std::this_thread::sleep_for(kPollPeriod);
@@ -165,8 +167,9 @@ bool BenchmarkServer::conclude() {
   if (is_finished) record_.writeExports(table);
   std::cout << describeEnd(parameters_, table, done_, plan_.problems.size()) << std::flush;
   const bool has_readers = publications_.hasSummaryReaders();
+  const int departures = publications_.summaryDepartures();
   publications_.publishSummary(summaries, is_finished);
-  if (is_finished) waitForReaders(has_readers);
+  if (is_finished) waitForReaders(has_readers, departures);
   return is_finished;
 }
 

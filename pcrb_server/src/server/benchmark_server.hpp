@@ -45,7 +45,7 @@ class BenchmarkServer {
   void waitForStart();
   bool serve(PreparedProblem prepared);
   Announcement nextAnnouncement(const PreparedProblem& prepared);
-  void waitForReaders(bool had_readers);
+  void waitForReaders(bool had_readers, int departures);
   bool conclude();
 
   const ServerParameters& parameters_;

@@ -36,7 +36,8 @@ Publications::Publications(ros::NodeHandle& node, const ServerParameters& parame
                                                 listeners_.left(), ros::VoidPtr(), true);
   initial_pose_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>(topics::kInitialPose, 1);
   result_ = node.advertise<pcrb_msgs::Result>(topics::kResult, 100);
-  summary_ = node.advertise<pcrb_msgs::Summary>(topics::kSummary, 1, true);
+  summary_ = node.advertise<pcrb_msgs::Summary>(topics::kSummary, 1, summary_readers_.joined(),
+                                                summary_readers_.left(), ros::VoidPtr(), true);
   source_aligned_ = node.advertise<sensor_msgs::PointCloud2>(topics::kSourceAligned, 1);
   markers_ = node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, 1);
   if (!parameters.configuration.debug) return;
@@ -132,6 +133,12 @@ void Publications::broadcast(const std::string& parent, const std::string& child
   } else {
     tf_.sendTransform(transform);
   }
+}
+
+int Publications::summaryDepartures() const {
+  int count = 0;
+  for (const auto& [node, departures] : summary_readers_.departures()) count += departures;
+  return count;
 }
 
 void Publications::publishSummary(const std::vector<SequenceSummary>& summaries, bool finished) {

@@ -7,6 +7,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/run/result.hpp"
@@ -38,6 +39,9 @@ class Publications {
 
   bool hasSummaryReaders() const { return summary_.getNumSubscribers() > 0; }
 
+  /// How often a subscriber of the summary has left.
+  int summaryDepartures() const;
+
   /// Nodes that listen to `problem`; those that only watch (rviz, rosbag, rostopic) excepted.
   std::set<std::string> listeners() const { return listeners_.names(); }
 
@@ -54,6 +58,7 @@ class Publications {
   bool is_earth_known_ = false;  ///< whether earth → map was broadcast before
 
   SubscriberNames listeners_;
+  SubscriberNames summary_readers_{std::vector<std::string>()};
 
   tf2_ros::TransformBroadcaster tf_;
   tf2_ros::StaticTransformBroadcaster static_tf_;
