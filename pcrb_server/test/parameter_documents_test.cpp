@@ -28,7 +28,7 @@ const std::map<std::string, const ParameterTable*> kTables{
     {"evaluation_test", &kEvaluationParameters}};
 
 /// Defaults of launch arguments that are others than the node's, on purpose.
-const std::set<std::string> kOwnDefaults{"node_launch"};
+const std::set<std::string> kOwnDefaults{"node_launch", "rviz"};
 
 const char* attribute(const tinyxml2::XMLElement& element, const char* name) {
   const char* const value = element.Attribute(name);
