@@ -146,9 +146,9 @@ TEST_F(AConversion, CountsACloudThatWasTakenBackOnce) {
   Conversion conversion(request_, "plain", 2);
   announce(conversion, "a.pcd", 1.0);
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, conversion.wants("a.pcd", ""), "a second scan");
-  conversion.takeBack("a.pcd");
+  conversion.retract("a.pcd");
   announce(conversion, "a.pcd", 2.0);
-  conversion.takeBack("a.pcd");
+  conversion.retract("a.pcd");
   announce(conversion, "a.pcd", 3.0);
   const ConversionReport report = conversion.finish();
   EXPECT_EQ(report.written.size(), 1u);

@@ -98,11 +98,11 @@ TEST_F(KaistPlaying, ScansThatAreRefusedTakeNoPlaceOfTheRate) {
   request_.max_rate = 2.0;
   request_.root = folder_.file("root");
   Conversion conversion(request_, "urban05", 0);
-  KaistGate gate(frames_, request_, "urban05", conversion);
-  EXPECT_FALSE(gate.admit(kStart - 20'000'000, kStart));  // before the first pose
-  EXPECT_FALSE(gate.admit(kStart + 80'000'000, std::nullopt));
-  EXPECT_TRUE(gate.admit(kStart + 180'000'000, kStart + 200'000'000));
-  EXPECT_FALSE(gate.admit(kStart + 280'000'000, kStart + 300'000'000));
+  KaistScanSelector selector(frames_, request_, "urban05", conversion);
+  EXPECT_FALSE(selector.select(kStart - 20'000'000, kStart));  // before the first pose
+  EXPECT_FALSE(selector.select(kStart + 80'000'000, std::nullopt));
+  EXPECT_TRUE(selector.select(kStart + 180'000'000, kStart + 200'000'000));
+  EXPECT_FALSE(selector.select(kStart + 280'000'000, kStart + 300'000'000));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/overlap.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
