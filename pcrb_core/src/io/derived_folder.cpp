@@ -22,6 +22,13 @@ constexpr const char* kWayOn = "; move it away, or replace it with --force (~for
   throw InvalidFile(path, std::string("cannot ") + action + ": " + std::strerror(errno));
 }
 
+/// What follows the third tab of a whole row; it may be empty.
+std::string noteOf(std::string_view line) {
+  std::size_t begin = 0;
+  for (int tab = 0; tab < 3; ++tab) begin = line.find('\t', begin) + 1;
+  return std::string(line.substr(begin));
+}
+
 }  // namespace
 
 DerivedFolder::DerivedFolder(std::string path, const std::string& record)
@@ -55,11 +62,8 @@ void DerivedFolder::readRecord() {
     const std::string name(fields[0]);
     // A name alone, or a part of a row, is of a run that was killed: its file is made again.
     const bool is_whole = fields.size() >= 4 && !(is_cut && lines.rest().empty());
-    const std::size_t note =
-        is_whole ? static_cast<std::size_t>(fields[3].data() - line.data()) : 0;
-    rows_[name] = is_whole ? Row{std::string(fields[1]), std::string(fields[2]),
-                                 std::string(line.substr(note))}
-                           : Row{};
+    rows_[name] =
+        is_whole ? Row{std::string(fields[1]), std::string(fields[2]), noteOf(line)} : Row{};
   }
   if (is_cut) append('\n' + std::string(fields[0]) + '\n');
 }

@@ -41,8 +41,8 @@ bool isHtml(std::string_view text) {
 
 bool hasLoneCarriageReturns(std::string_view text) {
   const std::size_t first = text.find_first_of("\r\n");
-  return first + 1 < text.size() && text[first] == '\r' && text[first + 1] != '\n' &&
-         text.find('\n') == std::string_view::npos;
+  if (first == std::string_view::npos || first + 1 == text.size()) return false;
+  return text[first] == '\r' && text.find('\n') == std::string_view::npos;
 }
 
 /// What a file is that has no lines of data in it, and what to do about it; nothing for others.

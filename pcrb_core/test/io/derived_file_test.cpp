@@ -149,6 +149,15 @@ TEST_F(DerivedFolderTest, KeepsAFileOfTheSameOriginWithItsNote) {
   EXPECT_EQ(folder.ownFiles(), std::vector<std::string>{"a.pcd"});
 }
 
+TEST_F(DerivedFolderTest, KeepsAFileWithoutANote) {
+  {
+    DerivedFolder folder(path_, record_);
+    make(folder, "a.pcd", "f1");
+    folder.record("a.pcd", "f1");
+  }
+  EXPECT_EQ(DerivedFolder(path_, record_).kept("a.pcd", "f1"), "");
+}
+
 TEST_F(DerivedFolderTest, DoesNotKeepAFileThatWasChangedOrRemoved) {
   {
     DerivedFolder folder(path_, record_);

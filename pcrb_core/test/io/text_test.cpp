@@ -61,6 +61,15 @@ TEST(TextRows, SplitsAtSeparatorsKeepingEmptyFields) {
   EXPECT_EQ(fields, (Fields{"a", "", "b", ""}));
 }
 
+TEST(TextRows, ReadsATextWithoutAnyLineEnd) {
+  for (const std::string text : {"", "a", "ab", "a\r"}) {
+    LineReader lines(text, "file.txt");
+    std::string_view line;
+    EXPECT_EQ(lines.next(line), !text.empty());
+    EXPECT_FALSE(lines.next(line));
+  }
+}
+
 TEST(TextRows, QuotesShortenAndEscape) {
   EXPECT_EQ(inQuotes("a b"), "'a b'");
   EXPECT_EQ(inQuotes(std::string("\xff\0", 2)), "'\\xff\\x00'");
