@@ -6,20 +6,9 @@
 #include "fetch/fetch_tool.hpp"
 #include "preparation/preparation_tools.hpp"
 
-int main(int argc, char** argv) {
-  CLI::App app(
-      "Downloads the four data sets of the benchmark with the published problem files, verifies "
-      "them "
-      "and puts them into the common layout.");
-  app.footer(
-      "Interrupted downloads go on where they stopped. SHA-256 sums are recorded in "
-      "LOGS/SHA256SUMS "
-      "when a file is seen first, and verified later.\n"
-      "KAIST's original logs need a registration: --dry-run says what to download and where to put "
-      "it.\n"
-      "Example: fetch_datasets --logs ~/logs --root ~/benchmark eth/plain tum");
-  pcrb_tools::FetchOptions options;
-  bool fetch_only = false;
+namespace {
+
+void addOptions(CLI::App& app, pcrb_tools::FetchOptions& options, bool& fetch_only) {
   app.add_option(
       "sequences", options.sequences,
       "sequences to fetch: names of sequences, data sets, or <data set>/<sequence> [all]");
@@ -40,6 +29,25 @@ int main(int argc, char** argv) {
                  "attempts at a file, in a row and without progress")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Downloads the four data sets of the benchmark with the published problem files, verifies "
+      "them "
+      "and puts them into the common layout.");
+  app.footer(
+      "Interrupted downloads go on where they stopped. SHA-256 sums are recorded in "
+      "LOGS/SHA256SUMS "
+      "when a file is seen first, and verified later.\n"
+      "KAIST's original logs need a registration: --dry-run says what to download and where to put "
+      "it.\n"
+      "Example: fetch_datasets --logs ~/logs --root ~/benchmark eth/plain tum");
+  pcrb_tools::FetchOptions options;
+  bool fetch_only = false;
+  addOptions(app, options, fetch_only);
   return pcrb_tools::runTool(app, argc, argv, [&] {
     if (options.sources.empty()) {
       options.sources = ros::package::getPath("pcrb_tools") + "/config/datasets.yaml";

@@ -4,16 +4,9 @@
 #include "pcrb_core/parallel.hpp"
 #include "preparation/preparation.hpp"
 
-int main(int argc, char** argv) {
-  CLI::App app(
-      "Prepares data sets from their original logs, in stages: convert, map, overlap, problems, "
-      "check. Run again after a stop, it goes on where it was.");
-  app.footer(
-      "LOGS has folders eth, planetary, tum and kaist (or some of them) with the logs as "
-      "fetch_datasets and make_sample_logs put them. Exit status 0 only if the check found no "
-      "error.\n"
-      "Example: prepare_dataset --logs ~/logs --root ~/benchmark eth/apartment kaist");
-  pcrb_tools::PrepareOptions options;
+namespace {
+
+void addSelection(CLI::App& app, pcrb_tools::PrepareOptions& options) {
   app.add_option(
       "sequences", options.sequences,
       "sequences to prepare: names of sequences, data sets, or <data set>/<sequence> [all]");
@@ -27,6 +20,9 @@ int main(int argc, char** argv) {
        {"problems", pcrb_tools::PrepareStage::kProblems},
        {"check", pcrb_tools::PrepareStage::kCheck}},
       "last stage to run [check]");
+}
+
+void addParameters(CLI::App& app, pcrb_tools::PrepareOptions& options) {
   app.add_option("--seed", options.seed, "seed that the problems are drawn with")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -51,6 +47,22 @@ int main(int argc, char** argv) {
                  "number of threads, which does not change the result")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Prepares data sets from their original logs, in stages: convert, map, overlap, problems, "
+      "check. Run again after a stop, it goes on where it was.");
+  app.footer(
+      "LOGS has folders eth, planetary, tum and kaist (or some of them) with the logs as "
+      "fetch_datasets and make_sample_logs put them. Exit status 0 only if the check found no "
+      "error.\n"
+      "Example: prepare_dataset --logs ~/logs --root ~/benchmark eth/apartment kaist");
+  pcrb_tools::PrepareOptions options;
+  addSelection(app, options);
+  addParameters(app, options);
   return pcrb_tools::runTool(app, argc, argv, [&options] {
     return pcrb_tools::prepareDataset(options, std::cout) ? pcrb_tools::kSuccess
                                                           : pcrb_tools::kFailure;

@@ -1,18 +1,10 @@
 #include "bags/bag_tools.hpp"
 #include "common/tool_main.hpp"
 
-int main(int argc, char** argv) {
-  CLI::App app(
-      "Writes registration problems as a bag that `rosbag play --clock` replays: for rviz, or "
-      "without truth for whoever is to solve them.");
-  app.footer(
-      "Example: problems_to_bag ~/pcrb/eth/apartment_local.txt -o apartment.bag --subset 50\n"
-      "Given away: problems_to_bag ~/pcrb/eth/apartment_local.txt -o problems.bag --no-truth \\\n"
-      "  --key problems.key, and later score_poses … --key problems.key");
-  pcrb_tools::ProblemsBagOptions options;
-  options.bag.period = 2.0;
-  bool no_truth = false;
-  std::string presentation = "registration";
+namespace {
+
+void addProblemOptions(CLI::App& app, pcrb_tools::ProblemsBagOptions& options,
+                       std::string& presentation) {
   app.add_option("problem_file", options.problem_file,
                  "<root>/<data set>/<sequence>_local.txt or _global.txt")
       ->required();
@@ -33,6 +25,23 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.problems.configuration.selection.seed, "seed of the subset")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Writes registration problems as a bag that `rosbag play --clock` replays: for rviz, or "
+      "without truth for whoever is to solve them.");
+  app.footer(
+      "Example: problems_to_bag ~/pcrb/eth/apartment_local.txt -o apartment.bag --subset 50\n"
+      "Given away: problems_to_bag ~/pcrb/eth/apartment_local.txt -o problems.bag --no-truth \\\n"
+      "  --key problems.key, and later score_poses … --key problems.key");
+  pcrb_tools::ProblemsBagOptions options;
+  options.bag.period = 2.0;
+  bool no_truth = false;
+  std::string presentation = "registration";
+  addProblemOptions(app, options, presentation);
   app.add_flag("--no-truth", no_truth,
                "what a client of the server would see, in a secret order, with random ids");
   app.add_option("--key", options.key, "file for the key with which score_poses scores");

@@ -4,16 +4,10 @@
 #include "common/tool_main.hpp"
 #include "report/report_tool.hpp"
 
-int main(int argc, char** argv) {
-  CLI::App app("Compares runs: statistics, tests of differences, charts.");
-  app.footer(
-      "Writes to the output folder: index.html (one file, needs nothing else), summary.csv, "
-      "tables/*.csv, report.md, report.tex, report.json, figures/*.png and *.pdf.\n"
-      "Examples: report runs/icp runs/gicp --output report\n"
-      "          report mine=runs/2024-05-01 --output report\n"
-      "          report --import mine_plain_local.csv --format csv --output report");
-  pcrb_tools::ReportOptions options;
-  std::vector<std::tuple<double, double>> recall;
+namespace {
+
+void addOptions(CLI::App& app, pcrb_tools::ReportOptions& options,
+                std::vector<std::tuple<double, double>>& recall) {
   app.add_option("runs", options.runs, "run folders: FOLDER, or NAME=FOLDER to name a method");
   app.add_option("--import", options.imports,
                  "result files of others, <method>_<sequence>_<kind>.csv: FILE, or NAME=FILE to "
@@ -44,6 +38,21 @@ int main(int argc, char** argv) {
                "leave out the errors along each axis, for which all clouds of a run are read");
   app.add_flag("!--no-figures", options.draw_figures,
                "leave out the PNG and PDF figures, which take most of the time");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Compares runs: statistics, tests of differences, charts.");
+  app.footer(
+      "Writes to the output folder: index.html (one file, needs nothing else), summary.csv, "
+      "tables/*.csv, report.md, report.tex, report.json, figures/*.png and *.pdf.\n"
+      "Examples: report runs/icp runs/gicp --output report\n"
+      "          report mine=runs/2024-05-01 --output report\n"
+      "          report --import mine_plain_local.csv --format csv --output report");
+  pcrb_tools::ReportOptions options;
+  std::vector<std::tuple<double, double>> recall;
+  addOptions(app, options, recall);
   return pcrb_tools::runTool(app, argc, argv, [&] {
     if (!recall.empty()) options.recall_limits.clear();
     for (const auto& [metres, degrees] : recall)

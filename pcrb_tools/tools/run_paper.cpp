@@ -2,17 +2,9 @@
 #include "common/tool_main.hpp"
 #include "report/report_tool.hpp"
 
-int main(int argc, char** argv) {
-  CLI::App app(
-      "Runs the paper's experiments, or some and a method of your own: icp, gicp, ndt, ppcr on "
-      "local problems, ransac, fgr, teaser on global ones; then writes the report.");
-  app.footer(
-      "Each method has its run in <run>/<method>; <run>/report/index.html is the page. Started "
-      "again "
-      "with the same folder, whatever ended it before, it goes on. Exit status: 0 only if every "
-      "problem of every method has its result.\n"
-      "Example: run_paper --root ~/pcrb/data --run ~/pcrb/paper");
-  pcrb_tools::PaperOptions options;
+namespace {
+
+void addOptions(CLI::App& app, pcrb_tools::PaperOptions& options) {
   app.add_option("--root", options.root, "folder of the data sets")->required();
   app.add_option("--run", options.run, "folder of the runs and the report")->required();
   app.add_option("--method,--methods", options.methods,
@@ -40,6 +32,22 @@ int main(int argc, char** argv) {
                  "benchmarks at the same time; latencies are undisturbed only with one")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Runs the paper's experiments, or some and a method of your own: icp, gicp, ndt, ppcr on "
+      "local problems, ransac, fgr, teaser on global ones; then writes the report.");
+  app.footer(
+      "Each method has its run in <run>/<method>; <run>/report/index.html is the page. Started "
+      "again "
+      "with the same folder, whatever ended it before, it goes on. Exit status: 0 only if every "
+      "problem of every method has its result.\n"
+      "Example: run_paper --root ~/pcrb/data --run ~/pcrb/paper");
+  pcrb_tools::PaperOptions options;
+  addOptions(app, options);
   pcrb_tools::ReportOptions report;
   app.add_flag("!--no-figures", report.draw_figures,
                "leave out the PNG and PDF figures, which take most of the time");
