@@ -198,7 +198,7 @@ set_environment() {
 
 run_catkin_make() {
   # shellcheck disable=SC2086 # several arguments
-  catkin_make -C "$root" --source . "-j$(parallel_jobs)" "$@" --cmake-args -Wno-dev \
+  catkin_make -C "$root" --source "$root" "-j$(parallel_jobs)" "$@" --cmake-args -Wno-dev \
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "-DPYTHON_EXECUTABLE=$python" "-DPCRB_WERROR=${PCRB_WERROR:-OFF}" ${CMAKE_ARGS:-}
 }
 
