@@ -112,7 +112,7 @@ def data(values):
     for data_set, sequence, kind, path in files:
         folder = os.path.join(root, data_set, 'box_met' if sequence == 'planetary_map' else sequence)
         if not glob.glob(os.path.join(folder, '*.pcd')) and sequence != 'planetary_map':
-            yield 'fix', f'{data_set}/{sequence}', f'no clouds in {folder}: pcrb fetch --root {root} {data_set}/{sequence}'
+            yield 'fix', f'{data_set}/{sequence}', f'no clouds in {folder}: pcrb fetch --logs LOGS --root {root} --sequences {data_set}/{sequence}'
 
 
 def read_lines(path):

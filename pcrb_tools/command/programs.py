@@ -112,6 +112,22 @@ def launch_option(element):
                   default=None if is_flag or not default or '$' in default else default, required=default is None, source=name)
 
 
+def command_line(options, values):
+    """Words for the program behind the options: those that are given, under the program's own names."""
+    words = []
+    for option in options:
+        if not option.source or option.name not in values or not given(option, values):
+            continue
+        value = values[option.name]
+        is_flag = option.kind == 'flag'
+        words += [option.source] if is_flag and value else [] if is_flag else [option.source, *texts_of(option, value)]
+    return words
+
+
+def texts_of(option, value):
+    return [str(each) for each in (value if option.many else [value])]
+
+
 class Tool:
     """A command that is a program of pcrb_tools.
 
@@ -144,19 +160,10 @@ class Tool:
         return mistakes + self.more(values)
 
     def arguments(self, options, values):
-        words, loose = [], []
-        for option in options:
-            if self.folders and option.name in ('root', 'sequences') or not given(option, values):
-                continue
-            value = values[option.name]
-            texts = [str(each) for each in (value if option.many else [value])]
-            if not option.source:
-                loose += texts
-            elif option.kind == 'flag':
-                words += [option.source] if value else []
-            else:
-                words += [option.source, *texts]
-        return loose + words if not self.folders else words
+        if self.folders:
+            return command_line([option for option in options if option.name not in ('root', 'sequences')], values)
+        loose = [option for option in options if not option.source and given(option, values)]
+        return [text for option in loose for text in texts_of(option, values[option.name])] + command_line(options, values)
 
     def run(self, name, options, values):
         words = self.arguments(options, values)
@@ -171,7 +178,3 @@ class Tool:
             if status != 0:
                 return status
         return 0
-
-
-def complain(text):
-    print(f'pcrb: {text}', file=sys.stderr)

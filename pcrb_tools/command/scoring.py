@@ -4,7 +4,7 @@ import os
 
 import places
 from options import given
-from programs import Tool, program, run_program
+from programs import Tool, command_line, program, run_program
 from words import WORDS
 
 
@@ -42,16 +42,6 @@ class OfOneSequence:
                     options.append(dataclasses.replace(option, required=False))
         return options
 
-    def words(self, tool, values, skip=()):
-        """The command line of a program: the options of its own that are given."""
-        words = []
-        for option in tool.options():
-            if option.name in values and option.source and option.name not in skip and given(option, values):
-                value = values[option.name]
-                texts = [str(each) for each in (value if option.many else [value])]
-                words += [option.source] if option.kind == 'flag' else [option.source, *texts]
-        return words
-
     def foreign(self, tool, other, values):
         """Options that are given and that only the other program has."""
         own = {option.name for option in tool.options()}
@@ -76,7 +66,7 @@ class Score(OfOneSequence):
 
     def run(self, name, options, values):
         place = [self.place(values)] if values['kind'] else ['--sequence', self.place(values)]
-        return run_program([program('score_poses'), *place, *self.words(self.tool, values)], 'pcrb score')
+        return run_program([program('score_poses'), *place, *command_line(self.tool.options(), values)], 'pcrb score')
 
 
 class Bag(OfOneSequence):
@@ -93,6 +83,6 @@ class Bag(OfOneSequence):
 
     def run(self, name, options, values):
         if not values['kind']:
-            return run_program([program('sequence_to_bag'), self.place(values), *self.words(self.sequence, values)], 'pcrb bag')
+            return run_program([program('sequence_to_bag'), self.place(values), *command_line(self.sequence.options(), values)], 'pcrb bag')
         period = ['--period', f'{1 / values["rate"]:.17g}']
-        return run_program([program('problems_to_bag'), self.place(values), *period, *self.words(self.problems, values)], 'pcrb bag')
+        return run_program([program('problems_to_bag'), self.place(values), *period, *command_line(self.problems.options(), values)], 'pcrb bag')
