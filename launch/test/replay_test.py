@@ -31,9 +31,25 @@ class Viewer:
     def __init__(self, namespace):
         self.messages = {topic: {} for topic in TOPICS}
         self.transforms = {}
-        self._subscribers = [
-            rospy.Subscriber(f'{namespace}/{topic}', kind, self._take, topic) for topic, kind in TOPICS.items()]
-        self._subscribers += [rospy.Subscriber(name, TFMessage, self._take_tf) for name in ('/tf', '/tf_static')]
+        self._namespace = namespace
+        self._subscribers = {topic: self._subscribe(topic) for topic in TOPICS}
+        self._transform_subscribers = [
+            rospy.Subscriber(name, TFMessage, self._take_tf) for name in ('/tf', '/tf_static')]
+
+    def _subscribe(self, topic):
+        return rospy.Subscriber(f'{self._namespace}/{topic}', TOPICS[topic], self._take, topic)
+
+    def wait_for_more(self, topic, count):
+        """A message beyond the first `count`. All topics are latched: when none comes, the connection is made anew,
+        because a master does not repeat the news of a publisher that a busy node missed."""
+        def has_come():
+            return len(self.messages[topic]) > count
+        try:
+            wait_until(has_come, f'{topic} comes', limit=20)
+        except AssertionError:
+            self._subscribers[topic].unregister()
+            self._subscribers[topic] = self._subscribe(topic)
+            wait_until(has_come, f'{topic} comes over a new connection')
 
     def _take(self, message, topic):
         header = message.markers[0].header if topic == 'markers' else message.header
@@ -55,7 +71,7 @@ class Viewer:
         wait_until(has_come, f'{child} is at {translation} in {parent}')
 
     def close(self):
-        for subscriber in self._subscribers:
+        for subscriber in [*self._subscribers.values(), *self._transform_subscribers]:
             subscriber.unregister()
 
 
@@ -73,7 +89,8 @@ class ReplayTest(TestCase):
         if rospy.has_param(name):
             rospy.delete_param(name)
         rospy.set_param(name, {'autostart': False, 'rate': 100, **parameters})
-        return self.start(Child([executable('pcrb_server', 'replay')], '/replayed'))
+        self.player = self.start(Child([executable('pcrb_server', 'replay')], '/replayed'))
+        return self.player
 
     def call(self, service):
         rospy.wait_for_service(f'/replayed/replay/{service}', 60)
@@ -84,7 +101,10 @@ class ReplayTest(TestCase):
         before = {topic: len(self.viewer.messages[topic]) for topic in topics}
         self.call('step')
         for topic in topics:
-            wait_until(lambda: len(self.viewer.messages[topic]) > before[topic], f'{topic} comes')
+            try:
+                self.viewer.wait_for_more(topic, before[topic])
+            except AssertionError as error:
+                self.fail(f'{error}; replay printed:\n{self.player.output()}')
         return [self.viewer.of(topic)[-1] for topic in topics]
 
     def assert_points(self, message, expected):
