@@ -40,7 +40,7 @@ class ControlTest(TestCase):
         return problem
 
     def test_a_problem_skipped_before_a_client_came_is_nobodys(self):
-        server = self.server(self.data, sequences='kitchen')
+        server = self.server(self.data, sequences='kitchen', allow_skipped=True)
         client = self.client(server)
         client.next_problem()
         self.assertTrue(server.call('benchmark_server/skip', Trigger).success)
@@ -51,7 +51,7 @@ class ControlTest(TestCase):
         self.assertEqual(run_info(server.run)['client'], rospy.get_name())
 
     def test_start_pause_and_skip(self):
-        server = self.server(self.data, autostart=False, time_limit=60.0)
+        server = self.server(self.data, autostart=False, time_limit=60.0, allow_skipped=True)
         client = self.client(server)
         server.wait_for_output('problems')
         problem = self.start_and_next_problem(server, client)

@@ -84,6 +84,15 @@ class EvaluateTest(TestCase):
         for misspelt in {}, {'max_meidan': 1}:
             test = self.rostest(sequences='hall', subset=1, max_median='', **misspelt)
             self.assert_fails_with(test, 'no threshold is given: expected max_median, max_q95 or min_replied')
+        test = self.rostest(sequences='hall', subset=1, max_median=10, max_q59=1)
+        self.assert_fails_with(test, r"evaluate.test has no argument 'max_q59': expected one of .*\bmax_q95\b")
+
+    def test_every_argument_of_the_file_is_a_known_one(self):
+        file = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), 'evaluate.test')
+        tree = ElementTree.parse(file)
+        declared = [arg.get('name') for arg in tree.getroot().findall('arg')]
+        known = next(param.get('value') for param in tree.getroot().find('test') if param.get('name') == 'known_arguments')
+        self.assertEqual(known.split(), declared)
 
     def test_judges_a_localization_node_as_it_is(self):
         data = maths.make_data_set(self.path('rooms'), points=1000)

@@ -11,6 +11,9 @@ by chance now and then. So a leak is
 - one number at the same place that belongs to the problem in flight, for two problems or more: what
   leaks, leaks for more than one; or
 - a secret word, anywhere, once.
+
+Clouds are published by design. What a client that remembers them can compute of them, which only an audit
+keeps from it, is in relations().
 """
 import collections
 import re
@@ -18,7 +21,8 @@ import typing
 
 import genpy
 import numpy as np
-from pcrb_testing_data import shifted, to_quaternion
+from pcrb_testing_data import moved, points_of, rigid_fit, shifted, to_quaternion
+from sensor_msgs.msg import PointCloud2
 
 TOLERANCE = 1e-6
 NUMBER = re.compile(r'[-+]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][-+]?\d+)?')
@@ -30,6 +34,7 @@ class Record(typing.NamedTuple):
     numbers: list         # (place within the record, number)
     texts: list
     raw: bytes = b''
+    points: typing.Optional[np.ndarray] = None  # of a cloud, n x 3
 
 
 def flatten(value, place=''):
@@ -59,7 +64,25 @@ def flatten(value, place=''):
 def record(place, moment, value, raw=b''):
     parts = list(flatten(value))
     numbers = [(where, part) for where, part in parts if not isinstance(part, str)]
-    return Record(place, moment, numbers, [part for _, part in parts if isinstance(part, str)], raw)
+    points = points_of(value) if getattr(value, '_type', '') == PointCloud2._type else None
+    return Record(place, moment, numbers, [part for _, part in parts if isinstance(part, str)], raw, points)
+
+
+def relations(records):
+    """Records of what clouds tell beside each other: their middles, and the motions between clouds of one scan."""
+    clouds = [seen for seen in records if seen.points is not None and len(seen.points)]
+    for i, seen in enumerate(clouds):
+        points = seen.points
+        middles = {'centroid': points.mean(axis=0), 'middle': (points.min(axis=0) + points.max(axis=0)) / 2,
+                   'first point': points[0], 'last point': points[-1]}
+        for name, point in middles.items():
+            yield record(f'{name} of {seen.place}', seen.moment, point.tolist())
+        for earlier in clouds[:i]:
+            if len(earlier.points) == len(points):
+                T = rigid_fit(earlier.points, points)
+                if np.abs(moved(T, earlier.points) - points).max() < 1e-3:
+                    numbers = [*T[:3, 3], *to_quaternion(T), *T[:3].ravel()]
+                    yield record(f'{earlier.place} onto {seen.place}', seen.moment, [float(number) for number in numbers])
 
 
 def angles(R):

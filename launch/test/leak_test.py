@@ -15,9 +15,10 @@ from sensor_msgs.msg import PointCloud2
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from leak_detector import LeakDetector, Secrets, angles, record
+from leak_detector import LeakDetector, Secrets, angles, record, relations
 from leak_recorder import Recorder
 from pcrb_testing import wait_until
+from pcrb_testing_adversaries import same_part
 from pcrb_testing_bridge import BridgeTestCase
 
 
@@ -70,7 +71,9 @@ class LeakTest(BridgeTestCase):
         for topic in 'target', 'source', 'problem', 'initialpose', 'result', 'summary':
             self.assertIn(f'{server.namespace}/{topic}', recorder.recorded_topics())
         self.assertLessEqual({'/tf', '/tf_static', 'parameters', 'graph', 'cmdline'}, recorder.recorded_topics())
-        return LeakDetector(self.secrets(server, presentation), self.words).leaks(recorder.records)
+        detector = LeakDetector(self.secrets(server, presentation), self.words)
+        self.leaks_of_memory = detector.leaks(list(relations(recorder.records)))
+        return detector.leaks(recorder.records)
 
     def take_source(self, message):
         """Each problem has one."""
@@ -116,6 +119,9 @@ class LeakTest(BridgeTestCase):
             problem = self.data.by_id(row['problem_id'])
             P, points = self.data.local_P(problem), self.data.source_points(problem)
             transforms = {'P': P}
+            if server.parameters.get('audit'):
+                secrets.append(Secrets(self.audited(problem, handed_out, presentation), self.data.origin(problem)))
+                continue
             if presentation == 'localization':
                 V = transforms['V'] = maths.rigid_fit(handed_out, points)
                 viewpoint = self.data.viewpoints[problem.sequence, problem.source].copy()
@@ -126,6 +132,23 @@ class LeakTest(BridgeTestCase):
             self.assertLess(np.abs(maths.moved(applied, points) - handed_out).max(), 1e-4)
             secrets.append(Secrets(transforms, self.data.origin(problem)))
         return secrets
+
+    def audited(self, problem, handed_out, presentation):
+        """What must not be seen of a problem of an audit; its motion is seen in the clouds, with the files' at hand."""
+        P, points = self.data.local_P(problem), self.data.source_points(problem)
+        kept = same_part(handed_out, points)
+        if presentation == 'registration':  # A P; the ideal reply is A (A P)^-1
+            return {'P': P, 'ideal': kept @ np.linalg.inv(P) @ np.linalg.inv(kept), 'A': kept @ np.linalg.inv(P)}
+        return {'P': P, 'V': np.linalg.inv(kept)}
+
+    def test_clouds_tell_a_client_with_memory_the_truth_unless_the_run_is_an_audit(self):
+        self.data = maths.make_data_set(self.path('small'), points=300, perturbations=1)
+        for presentation, truth in (('registration', 'P'), ('localization', 'V')):
+            self.assertEqual(self.play(presentation=presentation, run=self.path(f'plain {presentation}')), [])
+            self.assertRegex('\n'.join(self.leaks_of_memory), rf'(target onto .*source|source onto .*target): 7 numbers spell {truth}\b')
+            self.assertEqual(self.play(presentation=presentation, run=self.path(f'audit {presentation}'), audit=True,
+                                       results='end'), [])
+            self.assertEqual(self.leaks_of_memory, [])
 
     def test_registration_gives_nothing_away(self):
         self.assertEqual(self.play(presentation='registration'), [])

@@ -100,7 +100,7 @@ class Server(Child):
         name = f'{self.namespace}/{node}'
         if rospy.has_param(name):
             rospy.delete_param(name)
-        rospy.set_param(name, {'summary_hold_time': 0.0, **parameters})
+        rospy.set_param(name, {'summary_hold_time': 0.0, 'results': 'live', **parameters})
         self.parameters = parameters
         self.run = parameters.get('run')
         super().__init__([executable('pcrb_server', 'benchmark_server'), f'__name:={node}'], self.namespace)

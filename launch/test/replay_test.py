@@ -181,9 +181,9 @@ class ReplayTest(TestCase):
             target = wait_until(lambda: self.viewer.messages['target'].get(announced.target_stamp), 'its target comes')
             self.assert_points(target, self.data.clouds['hall', problem.target] - self.data.origin(problem))
 
-    def run_of_guesses(self, presentation):
+    def run_of_guesses(self, presentation, **parameters):
         """The results of a run whose client moves the guess a bit."""
-        server = self.server(self.data, presentation=presentation)
+        server = self.server(self.data, presentation=presentation, **parameters)
 
         def answer(client, problem):
             pose = maths.from_pose(problem.initial_guess)
@@ -194,8 +194,8 @@ class ReplayTest(TestCase):
         self.assert_ends_well(server)
         return {row['problem_id']: row for row in rows(server.run)}
 
-    def assert_run_is_shown(self, presentation):
-        results = self.run_of_guesses(presentation)
+    def assert_run_is_shown(self, presentation, **parameters):
+        results = self.run_of_guesses(presentation, **parameters)
         self.replay(run=self.path('run'), order='worst')
         errors = []
         for _ in results:
@@ -215,6 +215,9 @@ class ReplayTest(TestCase):
 
     def test_a_run_of_localization_is_shown_in_the_maps_frame(self):
         self.assert_run_is_shown('localization')
+
+    def test_an_audited_run_is_shown_as_one_without(self):
+        self.assert_run_is_shown('registration', audit=True)
 
     def test_changed_data_are_no_run(self):
         self.run_of_guesses('registration')

@@ -4,14 +4,17 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pcrb_core/datasets/eth.hpp"
 #include "pcrb_core/datasets/kaist.hpp"
 #include "pcrb_core/datasets/planetary.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/memory_budget.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
 #include "pcrb_core/problem/problem.hpp"
 
@@ -90,6 +93,26 @@ void requireFinite(const pcrb::Trajectory& trajectory) {
   require(pcrb::formatShortest(value) == std::string(shortest, last));
 }
 
+/// What is read and written again is read back as it is.
+[[maybe_unused]] void csv_fuzzer(std::string_view text) {
+  tryToRead([&] {
+    pcrb::LineReader lines(text, "fuzz.csv");
+    std::vector<std::string> row;
+    while (pcrb::nextCsvRow(lines, row)) {
+      row.insert(row.begin(), "row");  // a row of one empty field is a blank line
+      std::string line;
+      for (const std::string& field : row) {
+        if (&field != &row.front()) line += ',';
+        pcrb::appendCsvField(line, field);
+      }
+      pcrb::LineReader written(line, "again.csv");
+      std::vector<std::string> again;
+      require(pcrb::nextCsvRow(written, again) && again == row);
+      require(!pcrb::nextCsvRow(written, again));
+    }
+  });
+}
+
 [[maybe_unused]] void eth_scan_fuzzer(std::string_view text) {
   tryToRead([&] {
     const pcrb::SensorScan scan = pcrb::parseEthScan(text, "fuzz.csv");
@@ -142,6 +165,12 @@ void requireFinite(const pcrb::Trajectory& trajectory) {
 }
 
 }  // namespace
+
+/// So little that what goes beyond it meets run_fuzzers' -malloc_limit_mb.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  pcrb::MemoryBudget::ofProcess().setLimit(std::size_t{64} << 20);
+  return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   PCRB_FUZZ_TARGET({reinterpret_cast<const char*>(data), size});

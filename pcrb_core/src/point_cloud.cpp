@@ -38,6 +38,13 @@ PointCloud makeLocal(const DatasetCloud& cloud, const Eigen::Vector3d& local_ori
   return local;
 }
 
+Eigen::Vector3d boxCenter(const PointCloud& cloud) {
+  if (cloud.points.empty()) return Eigen::Vector3d::Zero();
+  Eigen::AlignedBox3f box;
+  for (const auto& point : cloud.points) box.extend(point);
+  return box.center().cast<double>().array().round();
+}
+
 Eigen::Vector3d centroid(const PointCloud& cloud) {
   if (cloud.points.empty()) throw InvalidProblem("cloud has no points");
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -10,7 +10,7 @@ const pcrb::NodeHelp kHelp{
     "other, and scores its replies.",
     R"(Topics and services: target, source, problem, initialpose, result, summary, source_aligned, markers;
 ready, submit_pose, ~start, ~pause, ~skip; in the namespace /pcrb unless another is given.
-Exit status: 0 only if every problem has a result.)",
+Exit status: 0 only if every problem has a result and none was skipped.)",
     pcrb::kServerParameters};
 
 }  // namespace

@@ -112,6 +112,7 @@ CLIENT_LAUNCH = '''<launch>
   <arg name="run"/> <arg name="root"/> <arg name="sequences" default="all"/> <arg name="kind" default="local"/>
   <arg name="presentation" default="registration"/> <arg name="subset" default="0"/> <arg name="seed" default="1"/>
   <arg name="shard" default="0/1"/> <arg name="time_limit" default="10"/> <arg name="rviz" default="false"/>
+  <arg name="audit" default="false"/> <arg name="results" default="$(eval 'live' if arg('rviz') else 'end')"/>
   <include file="$(find pcrb_launch)/benchmark.launch" pass_all_args="true">
     <arg name="client" value="false"/>
     <arg name="under_test" value={name}/>

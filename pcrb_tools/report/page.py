@@ -4,7 +4,7 @@ from markupsafe import Markup
 import charts
 from svg import error, interval
 
-PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('solved', 'solved'),
+PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('audit', 'audit'), ('solved', 'solved'),
          ('dependence', 'dependence'), ('distributions', 'distributions'), ('axes', 'axes'), ('times', 'times'),
          ('overlap', 'overlap'), ('problems', 'problems'), ('published', 'published')]
 TOO_FEW = 'too few pairs to tell'  # the verdict of a test that could not reject
@@ -122,6 +122,14 @@ def verdicts_of(comparisons):
             yield {'text': text, 'real': bool(row['better']), 'p': probability(row['corrected p']), 'pairs': row['pairs']}
 
 
+def audit_of(section, rows):
+    """What the audit section says: of each check, and of the runs that leave something open."""
+    runs = [method for method in section['methods'] if method['info']]
+    return {'rows': [{**row, 'gains': row['verdict'].startswith('gains')} for row in rows],
+            'plain': [m['method'] for m in runs if m['info'].get('audit') != 'true'],
+            'live': [m['method'] for m in runs if m['info'].get('results') == 'live']}
+
+
 def drawn(panels, draw):
     return [{'name': panel['selection'], 'svg': trusted(draw(panel))} for panel in panels]
 
@@ -147,7 +155,7 @@ def histograms_of(section, colors):
 
 def parts_of(section):
     """What the page's bar of links leads to: the parts that this section has."""
-    absent = {part for part, table in (('differences', 'comparisons'), ('axes', 'components'), ('times', 'runtimes'))
+    absent = {part for part, table in (('differences', 'comparisons'), ('audit', 'audit'), ('axes', 'components'), ('times', 'runtimes'))
               if table not in section['tables']}
     if not section['charts']['overlaps']:
         absent.add('overlap')
@@ -156,7 +164,7 @@ def parts_of(section):
 
 def view(section):
     tables = section['tables']
-    for name in ('comparisons', 'recall', 'runtimes', 'components', 'ground_truth'):
+    for name in ('comparisons', 'audit', 'recall', 'runtimes', 'components', 'ground_truth'):
         tables.setdefault(name, None)
     present = {name: table for name, table in tables.items() if table}
     section['tables'] = present
@@ -180,6 +188,7 @@ def view(section):
         'bars': trusted(charts.median_dots(scores, colors, floors)),
         'pivot': list(pivot_of(section, scores, comparisons, published)),
         'verdicts': list(verdicts_of(comparisons)),
+        'audit': audit_of(section, charts.rows_of(present['audit'])) if 'audit' in present else None,
         'solved': trusted(charts.solved_curves(section, colors)),
         'dependence': dependence_of(section, colors),
         'histograms': histograms_of(section, colors),

@@ -50,6 +50,12 @@ Eigen::Vector3d chooseLocalOrigin(const DatasetCloud& target);
 /// @throws InvalidProblem  if a coordinate is farther than kMaxSpan from the origin on any axis.
 PointCloud makeLocal(const DatasetCloud& cloud, const Eigen::Vector3d& local_origin);
 
+/// Centre of the points' bounding box, in whole metres, relative to the local origin: where people
+/// look, and where an audit turns a target. Not the centroid, which is the secret pose of a scan
+/// without a viewpoint when the same cloud is another problem's source. The origin for an empty
+/// cloud.
+Eigen::Vector3d boxCenter(const PointCloud& cloud);
+
 /// Centroid of the points, relative to the local origin, summed in double in a fixed order.
 ///
 /// @throws InvalidProblem  if the cloud is empty.

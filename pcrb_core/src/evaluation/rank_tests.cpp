@@ -173,6 +173,51 @@ PairedTest wilcoxon(const std::vector<double>& differences) {
   return test;
 }
 
+namespace {
+
+/// A rank sum, doubled since shared ranks are halves, and its chances where each first of each
+/// group is as likely.
+struct RankSum {
+  std::vector<double> chances{1.0};
+  std::size_t observed = 0;
+  std::size_t largest = 0;
+
+  void add(const std::vector<double>& group_ranks);
+  double chanceOf(std::size_t sum_at_least) const {
+    return std::accumulate(chances.begin() + static_cast<std::ptrdiff_t>(sum_at_least),
+                           chances.end(), 0.0);
+  }
+};
+
+void RankSum::add(const std::vector<double>& group_ranks) {
+  std::vector<double> next(chances.size() + 2 * group_ranks.size(), 0.0);
+  for (const double rank : group_ranks) {
+    const auto doubled = static_cast<std::size_t>(2.0 * rank);
+    for (std::size_t sum = 0; sum < chances.size(); ++sum) {
+      next[sum + doubled] += chances[sum] / static_cast<double>(group_ranks.size());
+    }
+  }
+  chances = std::move(next);
+  observed += static_cast<std::size_t>(2.0 * group_ranks.front());
+  largest +=
+      static_cast<std::size_t>(2.0 * *std::max_element(group_ranks.begin(), group_ranks.end()));
+}
+
+}  // namespace
+
+OrderTest firstAgainstLater(const std::vector<std::vector<double>>& groups) {
+  OrderTest test;
+  RankSum sum;
+  for (const std::vector<double>& group : groups) {
+    if (group.size() < 2) continue;
+    ++test.groups;
+    sum.add(ranks(group));
+  }
+  test.p_value = std::min(1.0, sum.chanceOf(sum.observed));
+  test.smallest_p = std::min(1.0, sum.chanceOf(sum.largest));
+  return test;
+}
+
 std::vector<double> holmAdjusted(const std::vector<double>& p_values) {
   for (const double p : p_values) {
     if (!(p >= 0.0 && p <= 1.0)) {

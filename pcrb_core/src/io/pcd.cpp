@@ -1,7 +1,5 @@
 #include "pcrb_core/io/pcd.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -44,17 +42,11 @@ std::string formatHeader(const DatasetCloud& cloud) {
 
 }  // namespace
 
-std::size_t defaultMemory() {
-  static const std::size_t memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
-                                    static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE)) / 4;
-  return memory;
-}
-
-void requireMemory(const LineReader& lines, std::size_t needed, std::size_t allowed) {
+MemoryBudget::Share takeMemory(const LineReader& lines, std::size_t needed, MemoryBudget& budget) {
   constexpr std::size_t kMegabyte = 1000000;
-  if (needed <= allowed) return;
+  if (needed <= budget.limit()) return budget.take(needed);
   lines.fail("a cloud that takes " + std::to_string(needed / kMegabyte + 1) + " MB of memory",
-             "at most " + std::to_string(allowed / kMegabyte) + " MB");
+             "at most " + std::to_string(budget.limit() / kMegabyte) + " MB (--memory)");
 }
 
 DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options) {
@@ -78,10 +70,10 @@ DatasetCloud parsePcd(const char* begin, const char* end, const std::string& nam
       readPcdAscii(header, lines, options, cloud);
       break;
     case PcdData::kBinary:
-      readPcdBinary(header, lines, options.memory, cloud);
+      readPcdBinary(header, lines, *options.budget, cloud);
       break;
     case PcdData::kBinaryCompressed:
-      readPcdCompressed(header, lines, options.memory, cloud);
+      readPcdCompressed(header, lines, *options.budget, cloud);
       break;
   }
   return cloud;

@@ -63,7 +63,7 @@ struct Part {
 /// On cache lines of its own: all threads read it, and one of them keeps its part beside it.
 class alignas(kCacheLine) AsciiReader {
  public:
-  AsciiReader(const PcdHeader& header, const LineReader& lines, std::size_t memory)
+  AsciiReader(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget)
       : lines_(lines), points_(header.points) {
     for (const PcdField& field : header.fields) {
       columns_.push_back({field});
@@ -71,7 +71,7 @@ class alignas(kCacheLine) AsciiReader {
       has_intensity_ = has_intensity_ || field.use == PcdUse::kIntensity;
     }
     const std::size_t bytes = lines.rest().size();
-    requireMemory(lines, bytes + pointBytes(header, mostRows(bytes)), memory);
+    share_ = takeMemory(lines, bytes + pointBytes(header, mostRows(bytes)), budget);
   }
 
   void read(int threads, DatasetCloud& cloud) const {
@@ -234,13 +234,14 @@ class alignas(kCacheLine) AsciiReader {
   std::vector<Column> columns_;
   std::size_t tokens_ = 0;  // values of a row
   bool has_intensity_ = false;
+  MemoryBudget::Share share_;
 };
 
 }  // namespace
 
 void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReadOptions& options,
                   DatasetCloud& cloud) {
-  AsciiReader(header, lines, options.memory).read(options.threads, cloud);
+  AsciiReader(header, lines, *options.budget).read(options.threads, cloud);
 }
 
 }  // namespace pcrb

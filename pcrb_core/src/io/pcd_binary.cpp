@@ -133,7 +133,7 @@ bool decodeLzf(std::string_view data, char* values, std::size_t size) {
 
 }  // namespace
 
-void readPcdBinary(const PcdHeader& header, const LineReader& lines, std::size_t memory,
+void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
                    DatasetCloud& cloud) {
   const std::string_view data = lines.rest();
   const std::size_t row_bytes = rowBytes(header, true);
@@ -141,7 +141,7 @@ void readPcdBinary(const PcdHeader& header, const LineReader& lines, std::size_t
       !isFill(data.substr(header.points * row_bytes))) {
     lines.fail(std::to_string(data.size()) + " bytes of data", describe(header, row_bytes));
   }
-  requireMemory(lines, data.size() + pointBytes(header, header.points), memory);
+  const auto share = takeMemory(lines, data.size() + pointBytes(header, header.points), budget);
   std::vector<BinaryColumn> columns;
   const char* first = data.data();
   for (const PcdField& field : header.fields) {
@@ -151,7 +151,7 @@ void readPcdBinary(const PcdHeader& header, const LineReader& lines, std::size_t
   collect(header, columns, cloud);
 }
 
-void readPcdCompressed(const PcdHeader& header, const LineReader& lines, std::size_t memory,
+void readPcdCompressed(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
                        DatasetCloud& cloud) {
   std::string_view data = lines.rest();
   std::uint32_t sizes[2];
@@ -173,7 +173,8 @@ void readPcdCompressed(const PcdHeader& header, const LineReader& lines, std::si
   }
   // More points than bytes are a lie, which is said below.
   const std::size_t points = std::min(header.points, uncompressed);
-  requireMemory(lines, data.size() + uncompressed + pointBytes(header, points), memory);
+  const auto share =
+      takeMemory(lines, data.size() + uncompressed + pointBytes(header, points), budget);
   const std::unique_ptr<char[]> values(new char[uncompressed]);
   if (!decodeLzf(data.substr(0, compressed), values.get(), uncompressed)) {
     lines.fail("broken LZF data", std::to_string(uncompressed) + " bytes after decoding");

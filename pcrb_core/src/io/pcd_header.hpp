@@ -48,14 +48,14 @@ struct PcdHeader {
 PcdHeader readPcdHeader(LineReader& lines);
 
 // Readers of what follows a PCD header. `lines` stands behind the DATA entry; they fill points,
-// intensity, dropped_non_finite and notes, and throw InvalidFile, also where they need more than
-// `memory` bytes, the file's among them.
+// intensity, dropped_non_finite and notes, and throw InvalidFile, also where file and
+// cloud need more than the budget.
 
 void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReadOptions& options,
                   DatasetCloud& cloud);
-void readPcdBinary(const PcdHeader& header, const LineReader& lines, std::size_t memory,
+void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
                    DatasetCloud& cloud);
-void readPcdCompressed(const PcdHeader& header, const LineReader& lines, std::size_t memory,
+void readPcdCompressed(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
                        DatasetCloud& cloud);
 
 /// Bytes of so many points in a DatasetCloud.
@@ -64,7 +64,8 @@ inline std::size_t pointBytes(const PcdHeader& header, std::size_t points) {
   return points * (sizeof(Eigen::Vector3d) + (has_intensity ? sizeof(float) : 0));
 }
 
-/// @throws InvalidFile  if more bytes are needed than allowed.
-void requireMemory(const LineReader& lines, std::size_t needed, std::size_t allowed);
+/// Waits for a share of the budget.
+/// @throws InvalidFile  if more bytes are needed than there are in all.
+MemoryBudget::Share takeMemory(const LineReader& lines, std::size_t needed, MemoryBudget& budget);
 
 }  // namespace pcrb

@@ -33,16 +33,34 @@ void naming(const PlannedProblem& planned, const Body& body) {
   }
 }
 
-}  // namespace
-
-Presentation present(const PosedProblem& posed, const PresentationOptions& options,
-                     const Secret& secret) {
+Presentation presentPlainly(const PosedProblem& posed, const PresentationOptions& options,
+                            const Secret& secret) {
   if (!options.isLocalization()) return presentForRegistration(posed.P);
   const LoadedCloud& source = *posed.source;
   const Transform V =
       secretSensorPose(secret, posed.planned->subject(), source.has_viewpoint, source.viewpoint,
                        source.metric->centroid(), options.yaw_only);
   return presentForLocalization(posed.P, V);
+}
+
+}  // namespace
+
+Presentation present(const PosedProblem& posed, const PresentationOptions& options,
+                     const Secret& secret) {
+  const Presentation plain = presentPlainly(posed, options, secret);
+  if (!options.audit) return plain;
+  const bool about_z = options.yaw_only || options.isLocalization();
+  const Transform A = secretTargetMotion(secret, "audit " + posed.target->name,
+                                         boxCenter(posed.target->cloud), about_z);
+  return moved(plain, A, options.kind);
+}
+
+PointCloud auditedTarget(const PosedProblem& posed, const Secret& secret) {
+  return secretPart(posed.target->cloud, secret, "target " + posed.target->name);
+}
+
+PointCloud auditedSource(const PosedProblem& posed, const Secret& secret) {
+  return secretPart(posed.source->cloud, secret, "source " + posed.planned->subject());
 }
 
 ProblemPoser::ProblemPoser(std::string root, const PresentationOptions& presentation,

@@ -1,5 +1,7 @@
 #include "pcrb_core/run/results_store.hpp"
 
+#include <sys/stat.h>
+
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -20,6 +22,15 @@ void makeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw StoreError(folder + ": cannot make this folder: " + error.message());
+}
+
+/// The file that a path names, whatever its name becomes; nothing where there is none.
+using FileNumber = std::pair<dev_t, ino_t>;
+
+std::optional<FileNumber> fileNumber(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileNumber{status.st_dev, status.st_ino};
 }
 
 std::string csvLine(const Statement& row) {
@@ -65,6 +76,17 @@ struct ResultsStore::Impl {
         database(access == Access::kReadWrite ? openStoreForWriting(storePath(folder))
                                               : openStoreForReading(storePath(folder))) {
     if (lock) insert_result.emplace(database, insertResultSql(), "add a result");
+    file = fileNumber(database.path());
+  }
+
+  /// A file that was removed or replaced takes results all the same, and loses them in the end.
+  void requireFileInPlace() const {
+    const auto found = fileNumber(database.path());
+    if (found && found == file) return;
+    throw StoreError(database.path() + ": found " + (found ? "another file" : "no file") +
+                     ", expected the one that was opened: the run folder was removed, renamed or "
+                     "replaced while the run went on; put it back and start again with the same "
+                     "run folder");
   }
 
   static std::unique_ptr<FileLock> makeLock(const std::string& folder) {
@@ -85,6 +107,7 @@ struct ResultsStore::Impl {
   std::string run_folder;
   std::unique_ptr<FileLock> lock;
   Database database;
+  std::optional<FileNumber> file;          // that the database is in
   std::optional<Statement> insert_result;  // none where the store is read only
   std::optional<std::int64_t> session;     // row of the session that this object began
 };
@@ -187,6 +210,7 @@ void ResultsStore::add(const Result& result) {
     throw StoreError(path() + ": found a result of " + result.key.subject() +
                      ", expected none: every problem has exactly one");
   }
+  impl_->requireFileInPlace();
 }
 
 std::set<ProblemKey> ResultsStore::finished() const {

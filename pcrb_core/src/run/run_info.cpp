@@ -119,6 +119,7 @@ void RunInfo::merge(const RunInfo& shard) {
   clouds.insert(shard.clouds.begin(), shard.clouds.end());
   if (problems) *problems += shard.problems.value_or(0);
   node_cpu_time += shard.node_cpu_time;
+  foreign_replies += shard.foreign_replies;
   node_peak_memory = std::max(node_peak_memory, shard.node_peak_memory);
 }
 

@@ -157,6 +157,12 @@ void RunRecord::noteUsage(double cpu_time, std::uint64_t peak_memory) {
   save();
 }
 
+void RunRecord::noteForeignReplies(std::uint64_t count) {
+  if (count == 0) return;
+  info_.foreign_replies += count;
+  save();
+}
+
 void RunRecord::writeExports(const std::string& summary_text) {
   store_.exportCsv();
   writeFileAtomically(folder_ + "/summary.txt", summary_text);

@@ -113,6 +113,26 @@ const RunTableRow kRunTableRows[] = {
      [](RunInfo& i, const std::string& text) {
        i.configuration.presentation.yaw_only = parseRunFlag(text);
      }},
+    {"audit", RunKeyRole::kConfiguration, true,  // runs without it were made before there was one
+     [](const RunInfo& i) {
+       return i.configuration.presentation.audit ? RunText("true") : std::nullopt;
+     },
+     [](RunInfo& i, const std::string& text) {
+       i.configuration.presentation.audit = parseRunFlag(text);
+     }},
+    {"results", RunKeyRole::kConfiguration, true,
+     [](const RunInfo& i) {
+       return i.configuration.results == ResultsTime::kLive ? RunText("live") : std::nullopt;
+     },
+     [](RunInfo& i, const std::string& text) {
+       if (text != "live") refuseRunText(text, "live");
+       i.configuration.results = ResultsTime::kLive;
+     }},
+    {"foreign_replies", RunKeyRole::kOwn, true,
+     [](const RunInfo& i) {
+       return i.foreign_replies > 0 ? RunText(std::to_string(i.foreign_replies)) : std::nullopt;
+     },
+     [](RunInfo& i, const std::string& text) { i.foreign_replies = parseRunCount(text); }},
     {"time_limit", RunKeyRole::kConfiguration, true,
      [](const RunInfo& i) { return RunText(formatShortest(i.configuration.time_limit)); },
      [](RunInfo& i, const std::string& text) { i.configuration.time_limit = parseRunReal(text); }},

@@ -163,5 +163,22 @@ TEST(Holm, RefusesWhatIsNoProbability) {
   EXPECT_THROW(holmAdjusted({std::nan("")}), InvalidParameter);
 }
 
+TEST(OrderTest, CountsTheOrdersInWhichFirstsAreAsLargeOrLarger) {
+  const OrderTest all = firstAgainstLater({{9, 1, 2, 3}, {5, 4, 3, 2}, {7, 6}});
+  EXPECT_EQ(all.groups, 3u);
+  EXPECT_DOUBLE_EQ(all.p_value, 1.0 / (4 * 4 * 2));
+  EXPECT_DOUBLE_EQ(all.smallest_p, all.p_value);
+  EXPECT_DOUBLE_EQ(firstAgainstLater({{2, 1, 3}}).p_value, 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(firstAgainstLater({{1, 2, 3}, {3, 2, 1}}).p_value, 6.0 / 9.0);
+}
+
+TEST(OrderTest, SharesTheRanksOfEqualValuesAndLeavesOutSingleOnes) {
+  const OrderTest equal = firstAgainstLater({{1, 1, 1}, {4}, {}});
+  EXPECT_EQ(equal.groups, 1u);
+  EXPECT_DOUBLE_EQ(equal.p_value, 1.0);
+  EXPECT_DOUBLE_EQ(firstAgainstLater({{1, 1, 0}}).p_value, 2.0 / 3.0);  // either of the ones
+  EXPECT_DOUBLE_EQ(firstAgainstLater({}).p_value, 1.0);
+}
+
 }  // namespace
 }  // namespace pcrb

@@ -203,14 +203,15 @@ TEST(PcdDefect, RefusesACloudBeyondTheMemoryBeforeItIsThere) {
     pcd.body = std::string(data == "binary" ? 12 * points : 0, '\0');
     for (std::size_t i = 0; data == "ascii" && i < points; ++i) pcd.body += "0 0 0\n";
     const std::string text = pcd.text();
+    MemoryBudget budget(memory);
     PcdReadOptions options;
-    options.memory = memory;
+    options.budget = &budget;
     return pcrb::parsePcd(text.data(), text.data() + text.size(), "a.pcd", options).points.size();
   };
   for (const std::string data : {"ascii", "binary"}) {
     EXPECT_EQ(parse(data, 4000000), points) << data;
     pcrb_test::expectError<InvalidFile>([&] { parse(data, 2000000); },
-                                        "of memory, expected at most 2 MB");
+                                        "of memory, expected at most 2 MB (--memory)");
   }
 }
 
@@ -225,11 +226,12 @@ TEST(PcdDefect, RefusesACompressedBombBeforeItIsThere) {
   pcd.data = "binary_compressed";
   pcd.body = std::string(reinterpret_cast<const char*>(sizes), sizeof(sizes)) + lzf;
   const std::string text = pcd.text();
+  MemoryBudget budget(1000000);
   PcdReadOptions options;
-  options.memory = 1000000;
+  options.budget = &budget;
   pcrb_test::expectError<InvalidFile>(
       [&] { pcrb::parsePcd(text.data(), text.data() + text.size(), "a.pcd", options); },
-      "a.pcd:10: found a cloud that takes 8 MB of memory, expected at most 1 MB");
+      "a.pcd:10: found a cloud that takes 8 MB of memory, expected at most 1 MB (--memory)");
 }
 
 TEST(PcdDefect, LyingPointCountsCostNoMemory) {

@@ -24,7 +24,7 @@ class OfflineRunTest : public RunFixture {
     const RunPlan plan = makeRunPlan(selection_);
     ProblemPoser poser(selection_.root, options_.configuration.presentation, secret_);
     for (const PlannedProblem& planned : plan.problems) {
-      const Transform ideal = poser.pose(planned).presentation.applied.inverse();
+      const Transform ideal = poser.pose(planned).presentation.ideal();
       Submission& submission = replies[planned.key.problem_id].submission;
       submission.position = ideal.translation();
       submission.orientation = Eigen::Quaterniond(ideal.linear());

@@ -10,11 +10,13 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <functional>
 
 #include "pcrb_core/random.hpp"
 #include "pcrb_core/run/results_store.hpp"
 #include "run/some_results.hpp"
+#include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb {
@@ -206,6 +208,21 @@ TEST(ResultsStoreSurvival, IsReadInAFolderWithoutWritePermission) {
   const pcrb_test::TemporaryFolder folder;
   ResultsStore(folder.path(), Access::kReadWrite).add(numberedResult(0));
   EXPECT_EQ(countAsStranger(folder.path()), 1);
+}
+
+TEST(ResultsStoreSurvival, NoticesAtTheNextResultThatItsFolderIsGoneOrAnother) {
+  const pcrb_test::TemporaryFolder folder;
+  const std::string run = folder.file("run"), moved = folder.file("moved");
+  ResultsStore store(run, Access::kReadWrite);
+  store.add(numberedResult(0));
+  std::filesystem::rename(run, moved);
+  pcrb_test::expectError<StoreError>([&] { store.add(numberedResult(1)); }, "results.sqlite",
+                                     "found no file, expected the one that was opened");
+  { const ResultsStore other(run, Access::kReadWrite); }
+  pcrb_test::expectError<StoreError>([&] { store.add(numberedResult(2)); }, "found another file");
+  std::filesystem::remove_all(run);
+  std::filesystem::rename(moved, run);
+  store.add(numberedResult(3));
 }
 
 TEST(ResultsStoreSurvival, IsReadBySomebodyElseWhileItsWriterIsActive) {

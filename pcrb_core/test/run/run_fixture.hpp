@@ -62,7 +62,7 @@ class RunFixture : public testing::Test {
     writeProblemFile(folder_.file("data/rooms/" + name), problems);
   }
 
-  const Secret secret_ = Secret::fromHex("000102030405060708090a0b0c0d0e0f");
+  Secret secret_ = Secret::fromHex("000102030405060708090a0b0c0d0e0f");
   pcrb_test::TemporaryFolder folder_;
   ProblemSelection selection_;
 };

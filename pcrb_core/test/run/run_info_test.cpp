@@ -96,6 +96,22 @@ TEST(RunInfo, KeepsAbsentKeysAbsentAndGivesTheirDefaults) {
   EXPECT_FALSE(RunInfo::read({{"key", "value"}}, "store").isOfARun());
 }
 
+TEST(RunInfo, MarksOnlyRunsThatAreAuditedOrLiveOrHadForeignReplies) {
+  RunInfo info;
+  for (const char* key : {"audit", "results", "foreign_replies"}) {
+    EXPECT_EQ(info.write().count(key), 0u) << key;
+  }
+  info.configuration.presentation.audit = true;
+  info.configuration.results = ResultsTime::kLive;
+  info.foreign_replies = 3;
+  const RunInfo again = RunInfo::read(info.write(), "store");
+  EXPECT_TRUE(again.configuration.presentation.audit);
+  EXPECT_EQ(again.configuration.results, ResultsTime::kLive);
+  EXPECT_EQ(again.foreign_replies, 3u);
+  EXPECT_EQ(keysOf(RunInfo().differences(info, Scope::kResume)),
+            (std::vector<std::string>{"audit", "results"}));
+}
+
 TEST(RunInfo, RefusesATextThatIsNoValueOfItsKey) {
   for (const auto& [key, text] : Table{{"seed", "-1"},
                                        {"subset", "many"},

@@ -115,7 +115,7 @@ class ScoringTest : public RunFixture {
 TEST_F(ScoringTest, GivesTheIdealReplyNoErrorInBothPresentations) {
   for (const auto kind : {PresentationKind::kRegistration, PresentationKind::kLocalization}) {
     const PosedProblem posed = pose({kind, false});
-    const Result result = score(posed, replyOf(posed.presentation.applied.inverse()));
+    const Result result = score(posed, replyOf(posed.presentation.ideal()));
     EXPECT_EQ(result.outcome, Outcome::kReplied);
     EXPECT_LT(result.error, 1e-12);
     EXPECT_NEAR(result.initial_misalignment, posed.initial.error, 0.0);
@@ -129,6 +129,52 @@ TEST_F(ScoringTest, GivesTheGuessTheInitialMisalignmentInBothPresentations) {
     EXPECT_NEAR(result.error, result.initial_misalignment, 1e-12);
     EXPECT_NEAR(result.translation_error, 0.1, 1e-12);
   }
+}
+
+TEST_F(ScoringTest, GivesEquivalentRepliesTheSameScoreWithAndWithoutAnAudit) {
+  const Transform off =
+      makeTransform({0.02, -0.01, 0.03}, Eigen::Quaterniond(0.999, 0.02, 0, 0.01));
+  for (const auto kind : {PresentationKind::kRegistration, PresentationKind::kLocalization}) {
+    const PosedProblem plain = pose({kind, false, false});
+    const Presentation without = plain.presentation;
+    const PosedProblem audited = pose({kind, false, true});
+    const Transform A = audited.presentation.target_applied;
+    const Result expected = score(plain, replyOf(without.ideal() * off));
+    EXPECT_LT(score(audited, replyOf(audited.presentation.ideal())).error, 1e-12);
+    EXPECT_NEAR(score(audited, replyOf(audited.presentation.guess)).error,
+                expected.initial_misalignment, 1e-12);
+    if (kind == PresentationKind::kLocalization) {
+      EXPECT_NEAR(score(audited, replyOf(A * without.ideal() * off)).error, expected.error, 1e-12);
+    }
+  }
+}
+
+TEST_F(ScoringTest, AnAuditMovesTheTargetSecretlyAndItsGuessWithIt) {
+  const PosedProblem audited = pose({PresentationKind::kRegistration, false, true});
+  const Transform A = audited.presentation.target_applied;
+  EXPECT_GT(rotationAngle(A.linear()), 0.01);
+  EXPECT_GT(A.translation().norm(), 0.1);
+  EXPECT_TRUE(audited.presentation.applied.isApprox(A * audited.P, 1e-12));
+  secret_ = Secret::draw();
+  const PosedProblem other = pose({PresentationKind::kRegistration, false, true});
+  EXPECT_FALSE(other.presentation.target_applied.isApprox(A, 1e-3));
+  const PosedProblem upright = pose({PresentationKind::kLocalization, false, true});
+  const Eigen::Matrix3d R = upright.presentation.target_applied.linear();
+  EXPECT_TRUE(R.col(2).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));  // z stays up
+  EXPECT_GT(rotationAngle(R), 1e-6);
+}
+
+TEST_F(ScoringTest, AnAuditPublishesAPartOfTheCloudInAnOrderOfEachProblem) {
+  const PosedProblem first = pose({PresentationKind::kRegistration, false, true});
+  const PointCloud part = auditedSource(first, secret_);
+  EXPECT_EQ(part.size(), 48u);  // of 50
+  EXPECT_EQ(auditedTarget(first, secret_).size(), 48u);
+  const PosedProblem second = poser_->pose(plan_.problems.at(2));  // of the same pair
+  ASSERT_EQ(second.source, first.source);
+  const PointCloud again = auditedSource(second, secret_);
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < part.size(); ++i) same += part.points[i] == again.points[i] ? 1 : 0;
+  EXPECT_LT(same, 10u);
 }
 
 TEST_F(ScoringTest, GivesAProblemWithoutAPoseTheInitialMisalignment) {

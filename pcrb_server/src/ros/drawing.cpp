@@ -11,13 +11,6 @@ constexpr double kAbove = 3.5;   // m, which is above the ceiling of a room
 
 }  // namespace
 
-Eigen::Vector3d boxCenter(const PointCloud& cloud) {
-  if (cloud.points.empty()) return Eigen::Vector3d::Zero();
-  Eigen::AlignedBox3f box;
-  for (const auto& point : cloud.points) box.extend(point);
-  return box.center().cast<double>().array().round();
-}
-
 visualization_msgs::Marker textMarker(const std_msgs::Header& header,
                                       const Eigen::Vector3d& position, const std::string& text) {
   visualization_msgs::Marker marker;

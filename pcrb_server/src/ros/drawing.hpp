@@ -3,17 +3,12 @@
 #include <std_msgs/Header.h>
 #include <visualization_msgs/Marker.h>
 
+#include <Eigen/Core>
 #include <string>
 
-#include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/run/result.hpp"
 
 namespace pcrb {
-
-/// Where people look, wherever the local origin is: the middle of the cloud's bounding box, in
-/// whole metres. Not its centroid, which is the secret pose of a scan without a viewpoint when the
-/// same cloud is another problem's source. The origin for an empty cloud.
-Eigen::Vector3d boxCenter(const PointCloud& cloud);
 
 /// Text above a position (m, in the header's frame) that always faces the viewer; of a size for the
 /// distance from which the rviz configurations look, whatever the extent of the clouds.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/process_limits.hpp"
 #include "pcrb_server/topics.hpp"
 #include "ros/node_calls.hpp"
 
@@ -114,6 +115,7 @@ std::string footerOf(const NodeHelp& help) {
 
 int runNode(int argc, char** argv, const NodeHelp& help,
             const std::function<int(ShutdownRequest&)>& body) {
+  turnLimitsIntoErrors(help.name);
   setenv("ROS_NAMESPACE", kDefaultNamespace, 0);
   std::vector<std::string> arguments;
   ros::removeROSArgs(argc, argv, arguments);
@@ -141,7 +143,7 @@ int runNode(int argc, char** argv, const NodeHelp& help,
     request.forget();
   } catch (const std::exception& error) {
     request.forget();
-    std::cerr << help.name << ": " << error.what() << std::endl;
+    std::cerr << help.name << ": " << describeFailure(error) << std::endl;
   }
   ros::shutdown();
   return status;

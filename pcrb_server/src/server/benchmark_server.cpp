@@ -40,7 +40,7 @@ BenchmarkServer::BenchmarkServer(const ServerParameters& parameters, ShutdownReq
       is_paused_(!parameters.autostart),
       tf_(parameters.frames.map, std::max(parameters.connect_limit, parameters.ready_limit) +
                                      parameters.configuration.time_limit + 10.0),
-      session_(parameters.frames.map, std::ref(tf_)),
+      session_(parameters.frames.map, std::ref(tf_), parameters.configuration.handshake),
       publications_(node_, parameters),
       clients_(parameters, session_, publications_, shutdown, record_),
       loader_(parameters, record_.secret(), remaining_),
@@ -70,9 +70,10 @@ void BenchmarkServer::offerServices() {
         return true;
       }));
   using pcrb_msgs::SubmitPose;
-  services_.push_back(node.advertiseService<SubmitPose::Request, SubmitPose::Response>(
-      services::kSubmitPose, [this](SubmitPose::Request& request, SubmitPose::Response& response) {
-        session_.submit(request, response);
+  using SubmitEvent = ros::ServiceEvent<SubmitPose::Request, SubmitPose::Response>;
+  services_.push_back(
+      node.advertiseService<SubmitEvent>(services::kSubmitPose, [this](SubmitEvent& event) {
+        session_.submit(event.getCallerName(), event.getRequest(), event.getResponse());
         return true;
       }));
   offerControls();
@@ -161,16 +162,23 @@ void BenchmarkServer::waitForReaders(bool had_readers, int departures) {
 
 bool BenchmarkServer::conclude() {
   session_.endRun();
+  record_.noteForeignReplies(session_.foreignReplies());
   const auto summaries = record_.summary();
   const bool is_finished = done_ == plan_.problems.size();
   const std::string table = formatSummary(summaries);
   if (is_finished) record_.writeExports(table);
-  std::cout << describeEnd(parameters_, table, done_, plan_.problems.size()) << std::flush;
+  const std::size_t skipped =
+      parameters_.allow_skipped
+          ? 0
+          : summaries.back().outcomes.at(static_cast<std::size_t>(Outcome::kSkipped));
+  std::cout << describeEnd(parameters_, table, done_, plan_.problems.size())
+            << describeDoubts(session_.foreignReplies(), skipped) << std::flush;
   const bool has_readers = publications_.hasSummaryReaders();
   const int departures = publications_.summaryDepartures();
+  if (is_finished) publications_.publishErrors();
   publications_.publishSummary(summaries, is_finished);
   if (is_finished) waitForReaders(has_readers, departures);
-  return is_finished;
+  return is_finished && skipped == 0;
 }
 
 }  // namespace pcrb

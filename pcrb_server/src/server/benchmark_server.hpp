@@ -35,7 +35,8 @@ class BenchmarkServer {
 
   /// Serves every problem that has no result yet, then writes and publishes the summary.
   ///
-  /// @return  true if every problem of the run has a result in the end.
+  /// @return  true if every problem of the run has a result in the end, and none was skipped
+  ///          unless that is allowed.
   /// @throws Error  if nobody comes for a problem, or a cloud cannot be served.
   bool run();
 

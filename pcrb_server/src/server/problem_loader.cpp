@@ -1,16 +1,27 @@
 #include "server/problem_loader.hpp"
 
+#include <utility>
+
 namespace pcrb {
 
 namespace {
 
 constexpr std::size_t kAhead = 2;  // problems prepared before they are asked for
 
+std::shared_ptr<const PointCloud> share(PointCloud cloud) {
+  return std::make_shared<const PointCloud>(std::move(cloud));
+}
+
+std::shared_ptr<const PointCloud> cloudOf(const std::shared_ptr<const LoadedCloud>& loaded) {
+  return {loaded, &loaded->cloud};
+}
+
 }  // namespace
 
 ProblemLoader::ProblemLoader(const ServerParameters& parameters, const Secret& secret,
                              const std::vector<PlannedProblem>& problems)
     : parameters_(parameters),
+      secret_(secret),
       problems_(problems),
       poser_(parameters.configuration.selection.root, parameters.configuration.presentation, secret,
              parameters.loading),
@@ -55,17 +66,21 @@ void ProblemLoader::work() {
 }
 
 PreparedProblem ProblemLoader::prepare(std::size_t position) {
+  const ProblemFrames& frames = parameters_.frames;
+  const PresentationOptions& options = parameters_.configuration.presentation;
   PreparedProblem prepared;
   static_cast<PosedProblem&>(prepared) = poser_.pose(problems_[position]);
-  prepared.source_message =
-      serializer_.serialize(prepared.source->cloud, prepared.presentation.applied,
-                            parameters_.frames.source(parameters_.configuration.presentation));
+  const Presentation& presentation = prepared.presentation;
+  prepared.published_source =
+      options.audit ? share(auditedSource(prepared, secret_)) : cloudOf(prepared.source);
+  prepared.source_message = serializer_.serialize(*prepared.published_source, presentation.applied,
+                                                  frames.source(options));
   prepared.publishes_target =
       position == 0 || problems_[position].target_path != problems_[position - 1].target_path;
-  if (prepared.publishes_target) {
-    prepared.target_message = serializer_.serialize(prepared.target->cloud, Transform::Identity(),
-                                                    parameters_.frames.map);
-  }
+  if (!prepared.publishes_target) return prepared;
+  const auto target =
+      options.audit ? share(auditedTarget(prepared, secret_)) : cloudOf(prepared.target);
+  prepared.target_message = serializer_.serialize(*target, presentation.target_applied, frames.map);
   return prepared;
 }
 

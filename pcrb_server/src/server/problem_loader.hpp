@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <deque>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -17,6 +18,7 @@ namespace pcrb {
 
 /// One problem, ready to be served.
 struct PreparedProblem : PosedProblem {
+  std::shared_ptr<const PointCloud> published_source;  ///< at ground truth
   SerializedCloud source_message;
   SerializedCloud target_message;
   bool publishes_target = false;  ///< whether the target published before is another one
@@ -48,6 +50,7 @@ class ProblemLoader {
   void work();
 
   const ServerParameters& parameters_;
+  const Secret& secret_;
   const std::vector<PlannedProblem>& problems_;
   ProblemPoser poser_;
   CloudSerializer serializer_;

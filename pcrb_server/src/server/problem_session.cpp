@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
@@ -16,12 +17,16 @@ std::chrono::steady_clock::duration steady(std::chrono::duration<double> duratio
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
 }
 
+Rejection notYours(const std::string& client) {
+  return {Response::NOT_YOURS, "the problem belongs to " + client + ", which called `ready`"};
+}
+
 Rejection duplicate() { return {Response::DUPLICATE, "the problem has been answered already"}; }
 
 }  // namespace
 
-ProblemSession::ProblemSession(std::string target_frame, Lookup lookup)
-    : target_frame_(std::move(target_frame)), lookup_(std::move(lookup)) {}
+ProblemSession::ProblemSession(std::string target_frame, Lookup lookup, Handshake handshake)
+    : target_frame_(std::move(target_frame)), lookup_(std::move(lookup)), handshake_(handshake) {}
 
 void ProblemSession::announce(const std::string& problem_id, const ros::Time& stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -86,16 +91,20 @@ void ProblemSession::endRun() {
 void ProblemSession::ready(const std::string& caller, const pcrb_msgs::Ready::Request& request,
                            pcrb_msgs::Ready::Response& response) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  response.accepted = phase_ == Phase::kAnnounced && request.problem_id == problem_id_ ? 1 : 0;
-  if (response.accepted != 0) {
+  if (!isNodeName(caller)) {
+    response.message = "found a caller named " + inQuotes(caller) + ", expected a node's name";
+  } else if (!inFlight(request.problem_id)) {
+    response.message = "found problem_id " + inQuotes(request.problem_id) +
+                       ", expected that of the problem announced last";
+  } else if (phase_ != Phase::kAnnounced) {
+    response.message = "the problem's source has been published already";
+  } else if (is_ready_ && caller != client_) {
+    response.message = "the problem belongs to " + client_ + ", which called first";
+  } else {
+    response.accepted = 1;
     is_ready_ = true;
     client_ = caller;
     changed_.notify_all();
-  } else if (inFlight(request.problem_id)) {
-    response.message = "the problem's source has been published already";
-  } else {
-    response.message = "found problem_id `" + request.problem_id +
-                       "`, expected that of the problem announced last";
   }
 }
 
@@ -113,8 +122,8 @@ std::optional<Rejection> ProblemSession::check(const std::string& problem_id,
   }
   if (phase_ == Phase::kRunOver) return Rejection{Response::NOT_RUNNING, "the run is over"};
   if (!inFlight(problem_id)) {
-    return Rejection{Response::UNKNOWN_PROBLEM, "found problem_id `" + problem_id +
-                                                    "`, expected that of an announced problem"};
+    return Rejection{Response::UNKNOWN_PROBLEM, "found problem_id " + inQuotes(problem_id) +
+                                                    ", expected that of an announced problem"};
   }
   if (phase_ == Phase::kAnnounced) {
     return Rejection{Response::NOT_RUNNING,
@@ -131,9 +140,9 @@ bool ProblemSession::isElsewhere(const Request& request) const {
 }
 
 Rejection ProblemSession::noTransform(const Request& request) const {
-  return {Response::NO_TRANSFORM, "tf does not connect `" +
-                                      withoutSlash(request.pose.header.frame_id) + "` with `" +
-                                      target_frame_ + "`"};
+  return {Response::NO_TRANSFORM, "tf does not connect " +
+                                      inQuotes(withoutSlash(request.pose.header.frame_id)) +
+                                      " with '" + target_frame_ + "'"};
 }
 
 /// Lets others in while a reply waits for tf, and counts it among those that waitReply() waits for,
@@ -179,12 +188,18 @@ std::optional<Rejection> ProblemSession::place(const Request& request, const Sub
   return toRejection(checkPlaced(submission, *T_target_frame));
 }
 
-void ProblemSession::submit(const Request& request, Response& response) {
+bool ProblemSession::isForeign(const std::string& caller) const {
+  return handshake_ == Handshake::kReady && caller != client_;
+}
+
+void ProblemSession::submit(const std::string& caller, const Request& request, Response& response) {
   const Clock::time_point arrival = Clock::now();
   std::unique_lock<std::mutex> lock(mutex_);
   Submission submission;
   std::optional<Transform> T_target_frame;
+  const bool is_foreign = inFlight(request.problem_id) && isForeign(caller);
   auto rejection = check(request.problem_id, arrival);
+  if (is_foreign && phase_ == Phase::kSourcePublished) rejection = notYours(client_);
   if (!rejection) rejection = readSubmission(request, submission);
   if (!rejection) rejection = place(request, submission, arrival, lock, T_target_frame);
   response.accepted = rejection ? 0 : 1;
@@ -194,7 +209,9 @@ void ProblemSession::submit(const Request& request, Response& response) {
     return;
   }
   response.message = rejection->message;
-  if (inFlight(request.problem_id) && !reply_) {
+  if (is_foreign) {
+    ++foreign_replies_;
+  } else if (inFlight(request.problem_id) && !reply_) {
     ++rejected_;
     last_rejection_ = rejection->message;
   }
@@ -225,6 +242,11 @@ void ProblemSession::stop() {
 std::string ProblemSession::client() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return client_;
+}
+
+std::uint64_t ProblemSession::foreignReplies() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return foreign_replies_;
 }
 
 }  // namespace pcrb

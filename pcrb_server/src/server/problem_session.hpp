@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "pcrb_core/run/run_info.hpp"
 #include "pcrb_core/run/scoring.hpp"
 #include "pcrb_core/transform.hpp"
 #include "server/replies.hpp"
@@ -32,7 +33,8 @@ class ProblemSession {
 
   enum class Wait { kDone, kLimit, kSkipped, kStopped };
 
-  ProblemSession(std::string target_frame, Lookup lookup);
+  /// @param handshake  with one, a problem belongs to the caller of its `ready`.
+  ProblemSession(std::string target_frame, Lookup lookup, Handshake handshake = Handshake::kReady);
 
   // For the loop.
   void announce(const std::string& problem_id, const ros::Time& stamp);
@@ -47,13 +49,16 @@ class ProblemSession {
   // For the services.
   void ready(const std::string& caller, const pcrb_msgs::Ready::Request& request,
              pcrb_msgs::Ready::Response& response);
-  void submit(const pcrb_msgs::SubmitPose::Request& request,
+  void submit(const std::string& caller, const pcrb_msgs::SubmitPose::Request& request,
               pcrb_msgs::SubmitPose::Response& response);
   bool skip();  ///< whether there was a problem in flight to be skipped
   void stop();  ///< ends every wait, for good
 
   /// Name of the node that called ready() last; empty before.
   std::string client() const;
+
+  /// Number of replies so far to problems in flight of nodes that had not called ready().
+  std::uint64_t foreignReplies() const;
 
  private:
   class LookingUp;
@@ -73,9 +78,11 @@ class ProblemSession {
   Wait waitFor(std::unique_lock<std::mutex>& lock, Clock::time_point deadline,
                const std::function<bool()>& done);
   bool inFlight(const std::string& problem_id) const;
+  bool isForeign(const std::string& caller) const;
 
   const std::string target_frame_;
   const Lookup lookup_;
+  const Handshake handshake_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -88,6 +95,7 @@ class ProblemSession {
   bool is_skipped_ = false;
   bool is_stopped_ = false;
   std::string client_;
+  std::uint64_t foreign_replies_ = 0;
   std::string last_rejection_;
   std::uint32_t rejected_ = 0;
   int looking_up_ = 0;  ///< replies that wait for tf

@@ -19,6 +19,8 @@ namespace pcrb {
 
 namespace {
 
+constexpr std::uint32_t kResultQueue = 10000;
+
 template <typename Message>
 Message withHeader(const std::string& frame, const ros::Time& stamp) {
   Message message;
@@ -35,7 +37,7 @@ Publications::Publications(ros::NodeHandle& node, const ServerParameters& parame
   problem_ = node.advertise<pcrb_msgs::Problem>(topics::kProblem, 1, listeners_.joined(),
                                                 listeners_.left(), ros::VoidPtr(), true);
   initial_pose_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>(topics::kInitialPose, 1);
-  result_ = node.advertise<pcrb_msgs::Result>(topics::kResult, 100);
+  result_ = node.advertise<pcrb_msgs::Result>(topics::kResult, kResultQueue);
   summary_ = node.advertise<pcrb_msgs::Summary>(topics::kSummary, 1, summary_readers_.joined(),
                                                 summary_readers_.left(), ros::VoidPtr(), true);
   source_aligned_ = node.advertise<sensor_msgs::PointCloud2>(topics::kSourceAligned, 1);
@@ -48,14 +50,16 @@ Publications::Publications(ros::NodeHandle& node, const ServerParameters& parame
 void Publications::publishTarget(const PreparedProblem& prepared,
                                  const Announcement& announcement) {
   const Eigen::Vector3d& origin = prepared.target->cloud.local_origin;
-  is_earth_known_ |= !origin.isZero();
+  // Where an audited target is on the earth is secret.
+  is_earth_known_ |= !origin.isZero() && !parameters_.configuration.presentation.audit;
   if (is_earth_known_) {
     broadcast("earth", parameters_.frames.map, Transform(Eigen::Translation3d(origin)),
               announcement.stamp, true);
   }
   broadcast(parameters_.frames.map, "pcrb_target",
-            Transform(Eigen::Translation3d(boxCenter(prepared.target->cloud))), announcement.stamp,
-            true);
+            Transform(Eigen::Translation3d(prepared.presentation.target_applied *
+                                           boxCenter(prepared.target->cloud))),
+            announcement.stamp, true);
   target_stamp_ = announcement.stamp;
   SerializedCloud target = prepared.target_message;
   target.setStamp(announcement.stamp);
@@ -82,7 +86,7 @@ void Publications::publishSource(const PreparedProblem& prepared,
 
 void Publications::showTruth(const PreparedProblem& prepared, const Announcement& announcement) {
   auto pose = withHeader<geometry_msgs::PoseStamped>(parameters_.frames.map, announcement.stamp);
-  pose.pose = toMessage(prepared.presentation.applied.inverse());
+  pose.pose = toMessage(prepared.presentation.ideal());
   truth_.publish(pose);
   pose.pose = toMessage(prepared.P);
   perturbation_.publish(pose);
@@ -103,8 +107,22 @@ void Publications::publishResult(const PreparedProblem& prepared, const Announce
   message.translation_error = result.translation_error;
   message.runtime = result.runtime.value_or(std::nan(""));
   message.reason = result.reason;
-  result_.publish(message);
+  publishOrWithhold(message);
   showReply(prepared, announcement, result);
+}
+
+void Publications::publishOrWithhold(pcrb_msgs::Result message) {
+  if (!areErrorsPublic()) {
+    withheld_.push_back(message);
+    message.error = message.initial_misalignment = std::nan("");
+    message.rotation_error = message.translation_error = std::nan("");
+  }
+  result_.publish(message);
+}
+
+void Publications::publishErrors() {
+  for (const pcrb_msgs::Result& message : withheld_) result_.publish(message);
+  withheld_.clear();
 }
 
 void Publications::showReply(const PreparedProblem& prepared, const Announcement& announcement,
@@ -112,11 +130,11 @@ void Publications::showReply(const PreparedProblem& prepared, const Announcement
   const std_msgs::Header in_map = makeHeader(parameters_.frames.map, announcement.stamp);
   const Transform reply = scoredPose(prepared, result);
   broadcast(parameters_.frames.map, "pcrb_reply", reply, announcement.stamp, false);
-  const Transform T_map_source = prepared.presentation.residual(reply);
+  const Transform T_map_source = reply * prepared.presentation.applied;
   if (source_aligned_.getNumSubscribers() > 0) {
-    source_aligned_.publish(toMessage(prepared.source->cloud, T_map_source, in_map));
+    source_aligned_.publish(toMessage(*prepared.published_source, T_map_source, in_map));
   }
-  if (markers_.getNumSubscribers() > 0) {
+  if (areErrorsPublic() && markers_.getNumSubscribers() > 0) {
     visualization_msgs::MarkerArray markers;
     markers.markers.push_back(
         textMarker(in_map, T_map_source * prepared.source->metric->centroid(), errorText(result)));
@@ -144,6 +162,9 @@ int Publications::summaryDepartures() const {
 void Publications::publishSummary(const std::vector<SequenceSummary>& summaries, bool finished) {
   auto message = withHeader<pcrb_msgs::Summary>("", ros::Time::now());
   message.finished = finished ? 1 : 0;
+  const auto shown = [&](double error) {
+    return finished || areErrorsPublic() ? error : std::nan("");
+  };
   for (const auto& summary : summaries) {
     pcrb_msgs::SequenceSummary row;
     row.name = summary.name;
@@ -154,11 +175,11 @@ void Publications::publishSummary(const std::vector<SequenceSummary>& summaries,
     row.timed_out = static_cast<std::uint32_t>(summary.outcomes[2]);
     row.rejected = static_cast<std::uint32_t>(summary.outcomes[3]);
     row.skipped = static_cast<std::uint32_t>(summary.outcomes[4]);
-    row.median = summary.error.median;
-    row.q75 = summary.error.q75;
-    row.q95 = summary.error.q95;
-    row.mean = summary.error.mean;
-    row.stddev = summary.error.stddev;
+    row.median = shown(summary.error.median);
+    row.q75 = shown(summary.error.q75);
+    row.q95 = shown(summary.error.q95);
+    row.mean = shown(summary.error.mean);
+    row.stddev = shown(summary.error.stddev);
     message.sequences.push_back(row);
   }
   summary_.publish(message);

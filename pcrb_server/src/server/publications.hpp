@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pcrb_msgs/Result.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/static_transform_broadcaster.h>
@@ -35,6 +36,9 @@ class Publications {
   void publishResult(const PreparedProblem& prepared, const Announcement& announcement,
                      const Result& result);
 
+  /// Publishes the results of this session again, with their errors, unless they were live.
+  void publishErrors();
+
   void publishSummary(const std::vector<SequenceSummary>& summaries, bool finished);
 
   bool hasSummaryReaders() const { return summary_.getNumSubscribers() > 0; }
@@ -47,6 +51,8 @@ class Publications {
 
  private:
   void publishTarget(const PreparedProblem& prepared, const Announcement& announcement);
+  bool areErrorsPublic() const { return parameters_.configuration.results == ResultsTime::kLive; }
+  void publishOrWithhold(pcrb_msgs::Result message);
   void showReply(const PreparedProblem& prepared, const Announcement& announcement,
                  const Result& result);
   void showTruth(const PreparedProblem& prepared, const Announcement& announcement);
@@ -56,6 +62,8 @@ class Publications {
   const ServerParameters& parameters_;
   ros::Time target_stamp_;
   bool is_earth_known_ = false;  ///< whether earth → map was broadcast before
+
+  std::vector<pcrb_msgs::Result> withheld_;  ///< results whose errors were not published yet
 
   SubscriberNames listeners_;
   SubscriberNames summary_readers_{std::vector<std::string>()};

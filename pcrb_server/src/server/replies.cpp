@@ -1,11 +1,15 @@
 #include "server/replies.hpp"
 
+#include <ros/names.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 #include <thread>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
@@ -15,6 +19,8 @@ namespace {
 using Request = pcrb_msgs::SubmitPose::Request;
 using Response = pcrb_msgs::SubmitPose::Response;
 
+constexpr std::size_t kLongestNodeName = 255;
+constexpr std::size_t kLongestReason = 4096;  // bytes
 constexpr auto kPatience = std::chrono::milliseconds(500);
 constexpr auto kPeriod = std::chrono::milliseconds(5);
 constexpr int kMaxWaiting = 2;
@@ -34,7 +40,7 @@ Submission toSubmission(const Request& request) {
   submission.scans_used = request.scans_used;
   submission.cpu_time = request.cpu_time;
   submission.peak_memory = request.peak_memory;
-  submission.reason = request.reason;
+  submission.reason = printableText(std::string_view(request.reason).substr(0, kLongestReason));
   return submission;
 }
 
@@ -44,6 +50,12 @@ static_assert(static_cast<int>(Submission::Status::kPose) == Request::POSE &&
                   static_cast<int>(Submission::Status::kFailed) == Request::FAILED &&
                   static_cast<int>(Submission::Status::kTimedOut) == Request::TIMED_OUT,
               "the states of a submission are those of SubmitPose.srv");
+
+bool isNodeName(const std::string& name) {
+  std::string ignored;
+  return name.size() > 1 && name.front() == '/' && name.size() <= kLongestNodeName &&
+         ros::names::validate(name, ignored);
+}
 
 std::optional<Rejection> toRejection(const std::optional<Defect>& defect) {
   if (!defect) return std::nullopt;

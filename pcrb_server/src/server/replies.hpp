@@ -20,10 +20,14 @@ struct Rejection {
   std::string message;
 };
 
+/// Whether a node can have this name; a stranger may call itself anything.
+bool isNodeName(const std::string& name);
+
 /// A defect of a submission as a rejection.
 std::optional<Rejection> toRejection(const std::optional<Defect>& defect);
 
-/// Takes over what a request submits, and checks what it says by itself (checkSubmission).
+/// Takes over what a request submits, of its reason what is printable of the first 4 KiB, and
+/// checks what it says by itself (checkSubmission).
 ///
 /// @param submission  set where nothing is returned.
 std::optional<Rejection> readSubmission(const pcrb_msgs::SubmitPose::Request& request,

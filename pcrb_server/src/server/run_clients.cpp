@@ -2,6 +2,7 @@
 
 #include <ros/names.h>
 #include <ros/param.h>
+#include <ros/this_node.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +14,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_server/topics.hpp"
+#include "ros/topic_peers.hpp"
 
 namespace pcrb {
 
@@ -29,6 +31,18 @@ std::string joinNames(const std::set<std::string>& names) {
   return text.empty() ? "nobody" : text;
 }
 
+/// Other nodes that publish what the server publishes, each with its topic; empty for none.
+std::string conflictingPublishers() {
+  std::vector<std::string> owned;
+  for (const char* topic : {topics::kProblem, topics::kTarget, topics::kSource}) {
+    owned.push_back(ros::names::resolve(topic));
+  }
+  ConflictingPublishers conflicts(ros::this_node::getName(), owned, "", nullptr);
+  std::string found;
+  for (const std::string& conflict : conflicts.find(publishersByTopic())) found += "; " + conflict;
+  return found;
+}
+
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -37,7 +51,8 @@ double secondsSince(Clock::time_point start) {
 
 std::string parametersOf(const std::string& node) {
   XmlRpc::XmlRpcValue value;
-  if (!ros::param::get(node, value)) return "";
+  std::string ignored;
+  if (!ros::names::validate(node, ignored) || !ros::param::get(node, value)) return "";
   std::ostringstream text;
   text.imbue(std::locale::classic());
   value.write(text);
@@ -66,7 +81,8 @@ bool RunClients::waitForReady() {
     if (wait != ProblemSession::Wait::kLimit) break;
     if (rest <= kReminderPeriod) giveUp(limit, is_first);
     std::cout << "waiting for a client to call " << ros::names::resolve(services::kReady)
-              << " (subscribed: " << joinNames(publications_.listeners()) << ")" << std::endl;
+              << " (subscribed: " << joinNames(publications_.listeners()) << conflictingPublishers()
+              << ")" << std::endl;
   }
   if (!session_.client().empty()) note({session_.client()});  // empty: it was skipped
   return true;
@@ -76,7 +92,7 @@ void RunClients::giveUp(double limit, bool is_first) const {
   throw Error("no client called `" + ros::names::resolve(services::kReady) + "` within " +
               formatShortest(limit) + " s (" + (is_first ? "~connect_limit" : "~ready_limit") +
               "; subscribed to `" + ros::names::resolve(topics::kProblem) +
-              "`: " + joinNames(publications_.listeners()) +
+              "`: " + joinNames(publications_.listeners()) + conflictingPublishers() +
               "); results so far are kept: start again with the same ~run to go on");
 }
 

@@ -48,6 +48,19 @@ std::string describeEnd(const ServerParameters& parameters, const std::string& t
          " problems have a result; start again with the same ~run to go on\n";
 }
 
+std::string describeDoubts(std::uint64_t foreign_replies, std::size_t skipped) {
+  std::string text;
+  if (foreign_replies > 0) {
+    text += std::to_string(foreign_replies) +
+            " replies were rejected: they came from nodes that had not called `ready`\n";
+  }
+  if (skipped > 0) {
+    text += std::to_string(skipped) +
+            " problems were skipped on request, which fails the run (~allow_skipped allows it)\n";
+  }
+  return text;
+}
+
 std::string formatRunProgress(std::size_t done, std::size_t total, std::size_t done_now,
                               double elapsed_s) {
   std::ostringstream text;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "server/server_parameters.hpp"
@@ -15,6 +16,12 @@ std::string describe(const ServerParameters& parameters);
 /// are left.
 std::string describeEnd(const ServerParameters& parameters, const std::string& table,
                         std::size_t done, std::size_t total);
+
+/// A line for each thing that speaks against a run.
+///
+/// @param foreign_replies  of nodes that were not the client.
+/// @param skipped          problems that count against the run.
+std::string describeDoubts(std::uint64_t foreign_replies, std::size_t skipped);
 
 /// Says now and then on standard output how far a run is: never with names that a client must not
 /// see.

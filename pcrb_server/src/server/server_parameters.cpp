@@ -34,6 +34,13 @@ const ParameterTable kServerParameters{
     {"global_guess", "false", "", "initial guess for global problems, too"},
     {"yaw_only", "false", "",
      "localization without VIEWPOINT turns scans about z only; gives the tilt away", "upright"},
+    {"audit", "false", "",
+     "each target gets a secret motion of its own, and 95 % of each cloud's points are published "
+     "in a secret order: a client's memory is of no use then"},
+    {"results", "end", "end|live",
+     "time at which `result` has errors, after the run or (for rviz and demos) at once, which "
+     "tells a client how to do better with the same clouds and marks the run"},
+    {"allow_skipped", "false", "", "skipped problems do not make the exit status 1"},
     {"autostart", "true", "", "start without the service ~start"},
     {"summary_hold_time", "5", "s",
      "time that the summary stays up at the end, unless its readers have left before", "linger"},
@@ -82,6 +89,9 @@ void readSelection(NodeParameters& reader, ProblemSelection& selection) {
 void readPresentation(NodeParameters& reader, RunConfiguration& configuration) {
   configuration.presentation.kind = presentationFromString(reader.choice("presentation"));
   configuration.presentation.yaw_only = reader.boolean("yaw_only");
+  configuration.presentation.audit = reader.boolean("audit");
+  configuration.results =
+      reader.choice("results") == "live" ? ResultsTime::kLive : ResultsTime::kEnd;
   configuration.global_guess = reader.boolean("global_guess");
   configuration.time_limit = reader.number("time_limit", 1e-3, kForever);
   configuration.handshake =
@@ -93,6 +103,7 @@ void readProtocol(NodeParameters& reader, ServerParameters& parameters) {
   parameters.connect_limit = reader.number("connect_limit", 0.1, kForever);
   parameters.ready_limit = reader.number("ready_limit", 0.1, kForever);
   parameters.summary_hold_time = reader.number("summary_hold_time", 0.0, 3600.0);
+  parameters.allow_skipped = reader.boolean("allow_skipped");
   parameters.autostart = reader.boolean("autostart");
   parameters.publish_tf = reader.boolean("publish_tf");
 }

@@ -19,6 +19,7 @@ struct ServerParameters {
   double connect_limit = 60.0;     ///< s until the first client shows up
   double ready_limit = 60.0;       ///< s from a problem's announcement to `ready`
   double summary_hold_time = 5.0;  ///< s that the summary stays up, unless its readers have left
+  bool allow_skipped = false;      ///< whether a run with skipped problems is a success
   bool autostart = true;
   bool publish_tf = true;
 };

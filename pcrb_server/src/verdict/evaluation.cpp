@@ -1,5 +1,6 @@
 #include "verdict/evaluation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <iostream>
@@ -10,8 +11,10 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/run/summary.hpp"
 #include "pcrb_server/node_parameters.hpp"
+#include "verdict/launch_arguments.hpp"
 #include "verdict/run_watcher.hpp"
 
 namespace pcrb {
@@ -29,7 +32,10 @@ const ParameterTable kEvaluationParameters{
     {"clients", "", "",
      "names of nodes without which no problem is solved: the run has failed if one ends before it, "
      "or does not start"},
-    {"run", "", "", "folder of the results, to be named in the report"}};
+    {"run", "", "", "folder of the results, to be named in the report"},
+    {"known_arguments", "", "",
+     "names of the arguments of evaluate.test: others on its command line are mistakes; empty: not "
+     "looked at"}};
 
 namespace {
 
@@ -90,6 +96,16 @@ std::string unusedNames(const pcrb_msgs::Summary& summary, const Thresholds& thr
   return text.empty() ? "" : "thresholds are given for what is not in this run:" + text;
 }
 
+void addUnknownArguments(NodeParameters& reader) {
+  const std::vector<std::string> known = reader.words("known_arguments");
+  if (known.empty()) return;
+  for (const std::string& name : launchArguments(commandLineOfParent(), "evaluate.test")) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    reader.addMistake("evaluate.test has no argument " + inQuotes(name) + ": expected one of " +
+                      joined(known, " ") + " (thresholds are max_median, max_q95 and min_replied)");
+  }
+}
+
 struct EvaluationParameters {
   Thresholds thresholds;
   double time_limit_total = 3600.0;
@@ -119,6 +135,7 @@ EvaluationParameters readEvaluationParameters() {
         "no threshold is given: expected max_median, max_q95 or min_replied, such as "
         "max_median:=0.05");
   }
+  addUnknownArguments(reader);
   parameters.time_limit_total = reader.number("time_limit_total", 0.1, 1e9);
   parameters.server = reader.string("server");
   parameters.clients = reader.words("clients");

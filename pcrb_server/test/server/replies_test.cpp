@@ -40,6 +40,15 @@ TEST(Replies, TakeOverWhatARequestSays) {
   EXPECT_EQ(submission.reason, "converged");
 }
 
+TEST(Replies, AreCutWhereTheirReasonIsLong) {
+  Request request = validRequest();
+  request.status = Request::FAILED;
+  request.reason.assign(100000, 'x');
+  Submission submission;
+  ASSERT_FALSE(readSubmission(request, submission).has_value());
+  EXPECT_EQ(submission.reason.size(), 4096u);
+}
+
 TEST(Replies, DoNotLookAtACovarianceThatIsNotGiven) {
   Request request = validRequest();
   request.covariance[0] = std::nan("");

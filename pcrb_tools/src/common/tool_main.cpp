@@ -6,11 +6,13 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "pcrb_core/io/memory_budget.hpp"
+#include "pcrb_core/io/process_limits.hpp"
 #include "pcrb_core/parallel.hpp"
 #include "pcrb_server/node_parameters.hpp"
 
@@ -66,10 +68,23 @@ int describeOptions(const CLI::App& app) {
   return kSuccess;
 }
 
-int complain(const std::string& tool, std::string what, int status) {
+int complain(const std::string& tool, const std::exception& error, int status) {
+  std::string what = pcrb::describeFailure(error);
   std::replace(what.begin(), what.end(), '\n', ' ');
   std::cerr << tool << ": " << what << std::endl;
   return status;
+}
+
+/// Every tool reads files of strangers.
+void addMemoryOption(CLI::App& app) {
+  constexpr double kMost = 1e9;  // MB
+  const auto set = [](double megabytes) {
+    pcrb::MemoryBudget::ofProcess().setLimit(static_cast<std::size_t>(megabytes * 1e6));
+  };
+  app.add_option_function<double>("--memory", set,
+                                  "MB of memory that all threads together may take for clouds and "
+                                  "scans that they read [a quarter of the machine's]")
+      ->check(CLI::Range(1.0, kMost));
 }
 
 }  // namespace
@@ -95,6 +110,8 @@ bool isKept(const pcrb::DerivedFile& output, bool force) {
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   const std::string tool = toolName(argc, argv);
   app.name(tool);
+  pcrb::turnLimitsIntoErrors(tool);
+  addMemoryOption(app);
   if (argc == 2 && std::string_view(argv[1]) == "--describe") return describeOptions(app);
   try {
     app.parse(argumentsForCli(argc, argv));
@@ -102,14 +119,13 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& bo
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return complain(tool, std::string(error.what()) + " (see --help)", kUsageError);
+    return complain(tool, std::runtime_error(std::string(error.what()) + " (see --help)"),
+                    kUsageError);
   }
   try {
     return body();
-  } catch (const std::bad_alloc&) {
-    return complain(tool, "out of memory", kFailure);
   } catch (const std::exception& error) {
-    return complain(tool, error.what(), kFailure);
+    return complain(tool, error, kFailure);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "common/process.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/memory_budget.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/problem.hpp"
 
@@ -14,6 +15,18 @@ namespace {
 
 /// Part of every fingerprint: raise it when the same log gives other bytes.
 constexpr const char* kConverterVersion = "2";
+
+/// Waits for the memory that a scan's bytes, points and written cloud take together.
+pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t bytes) {
+  constexpr std::size_t kExpansion = 6;  // of a binary scan, which expands most
+  constexpr std::size_t kMegabyte = 1000000;
+  pcrb::MemoryBudget& budget = pcrb::MemoryBudget::ofProcess();
+  const std::size_t needed = kExpansion * bytes;
+  if (needed <= budget.limit()) return budget.take(needed);
+  throw pcrb::InvalidFile(
+      path, 0, "a scan that takes " + std::to_string(needed / kMegabyte + 1) + " MB of memory",
+      "at most " + std::to_string(budget.limit() / kMegabyte) + " MB (--memory)");
+}
 
 }  // namespace
 
@@ -49,14 +62,23 @@ void convertFileScans(const LogFiles& files, std::vector<FileScan> scans, Conver
       continue;
     }
     conversion.add(scan.cloud_name, [&files, index = scan.file, make = std::move(scan.make)] {
-      return make(files.read(index).text(), files.all()[index].path());
+      const std::string path = files.all()[index].path();
+      const pcrb::FileBytes bytes = files.read(index);
+      const auto share = takeMemoryOfScan(path, bytes.text().size());
+      return make(bytes.text(), path);
     });
   }
+  // Those have their memory while they wait, and a job before them would wait for it for ever.
+  conversion.waitForAll();
   files.readArchived(indices, [&](std::size_t index, std::string bytes) {
     FileScan& scan = in_archives.at(index);
+    const std::string path = files.all()[index].path();
+    const auto share =
+        std::make_shared<pcrb::MemoryBudget::Share>(takeMemoryOfScan(path, bytes.size()));
     const auto shared = std::make_shared<const std::string>(std::move(bytes));
-    conversion.add(scan.cloud_name, [shared, path = files.all()[index].path(),
-                                     make = std::move(scan.make)] { return make(*shared, path); });
+    conversion.add(scan.cloud_name, [share, shared, path, make = std::move(scan.make)] {
+      return make(*shared, path);
+    });
   });
 }
 
@@ -120,6 +142,8 @@ void Conversion::add(const std::string& cloud_name, Make make) {
     report_.dropped["came faster than it could be converted"].push_back(cloud_name);
   }
 }
+
+void Conversion::waitForAll() { workers_.finish(); }
 
 void Conversion::retract(const std::string& cloud_name) {
   workers_.finish();

@@ -50,6 +50,10 @@ class Conversion {
   /// @throws what an earlier scan has thrown, or Interrupted.
   void add(const std::string& cloud_name, Make make);
 
+  /// Waits for the clouds that were added so far.
+  /// @throws what one of them has thrown.
+  void waitForAll();
+
   /// Forgets a cloud that was announced before, as better scans for it have come; waits for those
   /// under way.
   void retract(const std::string& cloud_name);

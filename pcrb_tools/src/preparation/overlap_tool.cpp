@@ -8,6 +8,7 @@
 #include "common/sequence_paths.hpp"
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/overlap.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
@@ -40,6 +41,26 @@ pcrb::OverlapJob makeJob(const SequenceFolder& folder, const OverlapOptions& opt
   job.threads = options.threads;
   return job;
 }
+
+/// The right to make a matrix, of one process at a time; leaves no file behind.
+class MatrixLock {
+ public:
+  explicit MatrixLock(const std::string& path) : path_(path + ".lock"), lock_(path_) {
+    if (lock_.isHeld()) return;
+    throw pcrb::InvalidFile(
+        path, 0, "another compute_overlap at work on it (" + lock_.holder() + ")", "one at a time");
+  }
+  ~MatrixLock() {
+    std::error_code ignored;  // the next one takes what is left
+    std::filesystem::remove(path_, ignored);
+  }
+  MatrixLock(const MatrixLock&) = delete;
+  MatrixLock& operator=(const MatrixLock&) = delete;
+
+ private:
+  std::string path_;
+  pcrb::FileLock lock_;
+};
 
 pcrb::DerivedFile describeMatrix(const std::string& path, const SequenceFolder& folder,
                                  const pcrb::OverlapJob& job) {
@@ -99,6 +120,7 @@ void runOverlapTool(const OverlapOptions& options) {
   const pcrb::OverlapJob job = makeJob(folder, options);
   const pcrb::DerivedFile output = describeMatrix(path, folder, job);
   const std::string journal_path = path + ".partial";
+  const MatrixLock lock(path);
   if (isKept(output, options.force)) {
     std::filesystem::remove(journal_path);  // a kill may have come before its end
     return;

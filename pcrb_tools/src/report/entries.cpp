@@ -47,6 +47,7 @@ ScoredProblem fromResult(const pcrb::Result& result) {
   problem.runtime = result.runtime;
   problem.solver_time = result.solver_time;
   problem.target_changed = result.target_changed;
+  problem.finished = result.finished;
   if (result.position && result.orientation) {
     problem.reply = pcrb::makeTransform(*result.position, *result.orientation);
   }

@@ -116,6 +116,7 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   tables_ = &json["tables"];
   add(scoreTable(section, options_));
   add(comparisonTable(section));
+  add(auditTable(section));
   add(correlationTable(section));
   add(recallTable(section, options_));
   add(runtimeTable(section));

@@ -32,6 +32,12 @@ constexpr double kSignificance = 0.05;
 /// none. No rows for a single method.
 Table comparisonTable(const Section& section);
 
+/// Whether a method's score comes from what its client remembered: the first problem that was posed
+/// of each pair of clouds against the later ones, and a run without an audit against an audited one
+/// of the same problems and the same `under_test`. No rows where no run had a client and several
+/// problems of a pair.
+Table auditTable(const Section& section);
+
 /// Spearman's ρ of the error against the initial misalignment and the overlap: per sequence and
 /// pooled, with all problems and without the unanswered ones, whose error is the misalignment.
 Table correlationTable(const Section& section);

@@ -7,12 +7,14 @@
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/overlap.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
 #include "pcrb_core/random.hpp"
 #include "preparation/preparation_tools.hpp"
+#include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb_tools {
@@ -122,6 +124,18 @@ TEST_F(OverlapToolTest, AJournalThatAKillLeftBesideACompleteMatrixIsRemoved) {
   runOverlapTool(options_);
   EXPECT_EQ(fs::last_write_time(output_), made);
   EXPECT_FALSE(fs::exists(output_ + ".partial"));
+}
+
+TEST_F(OverlapToolTest, RefusesAMatrixThatAnotherOneIsAtWorkOnAndLeavesNoLockBehind) {
+  const std::string lock = output_ + ".lock";
+  {
+    const pcrb::FileLock other(lock);
+    pcrb_test::expectError<pcrb::InvalidFile>([&] { runOverlapTool(options_); }, output_,
+                                              "another compute_overlap at work on it (process ");
+    EXPECT_TRUE(fs::exists(lock));
+  }
+  runOverlapTool(options_);
+  EXPECT_FALSE(fs::exists(lock));
 }
 
 TEST_F(OverlapToolTest, JournalOfOtherParametersIsBegunAnew) {

@@ -42,6 +42,21 @@ struct PairedTest {
 /// 1963.
 PairedTest wilcoxon(const std::vector<double>& differences);
 
+/// Result of firstAgainstLater().
+struct OrderTest {
+  std::size_t groups = 0;   ///< of two values or more
+  double p_value = 1.0;     ///< one-sided: of firsts that are as large or larger by chance
+  double smallest_p = 1.0;  ///< where every first is the largest of its group
+};
+
+/// Tests whether the first values of groups are larger than the later ones, where each of a group's
+/// values could have come first by the same chance: the sum of the firsts' ranks, against its exact
+/// distribution over all firsts. Equal values share their ranks.
+///
+/// @param groups  each with its first value in front; those of one value say nothing.
+/// @throws InvalidParameter  if a value is NaN.
+OrderTest firstAgainstLater(const std::vector<std::vector<double>>& groups);
+
 /// Holm's correction of the p-values of several tests: reject where the result is below the level,
 /// and the chance of a single false rejection is below the level.
 ///

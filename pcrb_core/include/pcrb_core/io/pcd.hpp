@@ -4,17 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "pcrb_core/io/memory_budget.hpp"
 #include "pcrb_core/point_cloud.hpp"
 
 namespace pcrb {
 
-/// A quarter of the machine's memory, bytes.
-std::size_t defaultMemory();
-
 struct PcdReadOptions {
   int threads = 1;  ///< >= 1, for ascii; the result does not depend on it
-  /// Bytes that file and cloud may take together: what needs more is refused before it is there.
-  std::size_t memory = defaultMemory();
+  /// Of which file and cloud take their share while they are read; what needs more than all of it
+  /// is refused before it is there.
+  MemoryBudget* budget = &MemoryBudget::ofProcess();
 };
 
 /// Reads a PCD file: ascii, binary or binary_compressed; any extra or padding (`_`) fields; SIZE 4

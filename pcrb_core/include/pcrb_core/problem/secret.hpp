@@ -26,6 +26,9 @@ class Secret {
   /// 64 bits for one purpose and subject, e.g. ("order", "plain local 4215528470000").
   std::uint64_t bits(const std::string& purpose, const std::string& subject) const;
 
+  /// A number in [0, 1).
+  double uniform(const std::string& purpose, const std::string& subject) const;
+
   /// Neutral id of a problem: 32 hexadecimal digits.
   std::string publicId(const std::string& subject) const;
 
@@ -37,8 +40,6 @@ class Secret {
   Eigen::Quaterniond rotation(const std::string& subject) const;
 
  private:
-  double uniform(const std::string& purpose, const std::string& subject) const;
-
   std::array<unsigned char, 16> key_{};
 };
 

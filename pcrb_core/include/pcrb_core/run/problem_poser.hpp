@@ -26,6 +26,11 @@ struct PosedProblem {
 Presentation present(const PosedProblem& posed, const PresentationOptions& options,
                      const Secret& secret);
 
+/// The points that an audit publishes of the target, and of the source: a secret part in a secret
+/// order, of the source another one for each problem.
+PointCloud auditedTarget(const PosedProblem& posed, const Secret& secret);
+PointCloud auditedSource(const PosedProblem& posed, const Secret& secret);
+
 /// How clouds are loaded.
 struct LoadOptions {
   std::size_t cache_bytes = std::size_t{512} << 20;  ///< kept at most, one pair of clouds at least

@@ -72,8 +72,8 @@ class ResultsStore {
   /// separated by spaces; its entries need not be finite.
   ///
   /// @throws StoreError  if the problem has a result already; if a number is negative, not finite
-  /// or
-  ///                     out of its range, or the pose is incomplete; on any failure to write.
+  ///                     or out of its range, or the pose is incomplete; on any failure to write;
+  ///                     if the database is no longer the file in the run folder.
   void add(const Result& result);
 
   /// Commits many results at once: all or, on any failure, none. As add() otherwise.

@@ -17,6 +17,10 @@ namespace pcrb {
 /// When a source is published: when a client has called `ready`, or at once.
 enum class Handshake { kReady, kNone };
 
+/// When the errors of problems are published: they tell a client how to do better with the same
+/// clouds.
+enum class ResultsTime { kEnd, kLive };
+
 /// What is asked of a run: the same whenever it goes on, and for all its shards.
 struct RunConfiguration {
   std::string under_test;  ///< name of what is benchmarked; empty = not told
@@ -25,7 +29,8 @@ struct RunConfiguration {
   double time_limit = 10.0;  ///< s
   Handshake handshake = Handshake::kReady;
   bool global_guess = false;  ///< whether global problems come with an initial guess
-  bool debug = false;         ///< whether the truth was published beside the problems
+  ResultsTime results = ResultsTime::kEnd;
+  bool debug = false;  ///< whether the truth was published beside the problems
 };
 
 /// The run table: what a run is, and what was noted while it went on (docs/formats.md).
@@ -45,6 +50,7 @@ struct RunInfo {
   std::optional<std::string> client_parameters;
   double node_cpu_time = 0.0;          ///< s, summed over problems, 0 = unknown
   std::uint64_t node_peak_memory = 0;  ///< bytes, 0 = unknown
+  std::uint64_t foreign_replies = 0;   ///< replies of nodes that were not the problem's client
   std::string merged_from;             ///< e.g. `4 shards`; empty but for a merged run
 
   std::map<std::string, std::string> others;  ///< what this version has no member for

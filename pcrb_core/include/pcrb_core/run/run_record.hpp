@@ -60,6 +60,9 @@ class RunRecord {
   /// @param peak_memory  bytes, so far; 0 = unknown.
   void noteUsage(double cpu_time, std::uint64_t peak_memory);
 
+  /// Counts replies of nodes that were not the client of the problem.
+  void noteForeignReplies(std::uint64_t count);
+
   /// Commits a result: it is on the disk when this returns.
   void add(const Result& result) { store_.add(result); }
 

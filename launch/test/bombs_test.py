@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""Files of every format that claim or hold more than memory has: one clear line, and little memory, is what they get.
+
+Prints what each program took at most, for docs/trust.md.
+"""
+import io
+import os
+import resource
+import sqlite3
+import struct
+import subprocess
+import sys
+import tarfile
+import zipfile
+import zlib
+
+import rosbag
+import rospy
+import rostest
+from sensor_msgs.msg import PointCloud2, PointField
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pcrb_testing_data as maths
+from pcrb_testing import TestCase, executable
+
+LIMIT = 1 << 30  # bytes of address space: libraries, threads' stacks and arenas take some 500 MB of it untouched
+PEAK = 350  # MB of memory
+
+
+def pcd(path, points, data, body):
+    with open(path, 'wb') as file:
+        file.write(f'# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {points}\nHEIGHT 1\n'
+                   f'VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {points}\nDATA {data}\n'.encode())
+        file.write(body)
+
+
+def packed_zeros(size):
+    """LZF of zeros, which packs 264 bytes into three; with the sizes before it."""
+    references = size // 264
+    lzf = b'\0\0' + b'\xe0\xff\0' * references
+    return struct.pack('<II', len(lzf), 1 + 264 * references) + lzf
+
+
+def png(width, height):
+    """16 bits of grey, all 0."""
+    def chunk(kind, data):
+        return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+    packer = zlib.compressobj(9)
+    rows = b''.join(packer.compress(bytes(1 + 2 * width)) for _ in range(height)) + packer.flush()
+    return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 16, 0, 0, 0, 0)) +
+            chunk(b'IDAT', rows) + chunk(b'IEND', b''))
+
+
+def add(archive, name, data):
+    entry = tarfile.TarInfo(name)
+    entry.size = len(data)
+    archive.addfile(entry, io.BytesIO(data))
+
+
+class BombsTest(TestCase):
+
+    def setUp(self):
+        super().setUp()
+        self.root = self.path('root')
+        self.folder = self.path('root', 'rooms', 'yard')
+        os.makedirs(self.folder)
+
+    def run_limited(self, package, program, *arguments, address_space=LIMIT, file_size=None):
+        """Exit status, standard error, and the most memory that it took, in MB."""
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (address_space, address_space))
+            if file_size is not None:
+                resource.setrlimit(resource.RLIMIT_FSIZE, (file_size, file_size))
+        with open(self.path('errors'), 'w+') as errors:
+            child = subprocess.Popen([executable(package, program), *arguments], stdout=subprocess.DEVNULL, stderr=errors,
+                                     preexec_fn=limit, cwd=self.folder)
+            _, status, usage = os.wait4(child.pid, 0)
+            child.returncode = -os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
+            errors.seek(0)
+            return child.returncode, errors.read(), usage.ru_maxrss / 1024
+
+    def explode(self, name, pattern, program, *arguments):
+        """The program fails and says why in its last line, whatever it has said before, with little memory."""
+        size = max(os.path.getsize(os.path.join(folder, file))
+                   for folder, _, files in os.walk(self.folder) for file in files)
+        status, errors, peak = self.run_limited('pcrb_tools', program, *arguments)
+        print(f'{name:34} {size / 1e6:8.3f} MB  {program:16} {peak:4.0f} MB at most', flush=True)
+        self.assertEqual(status, 1, f'{name}: {errors}')
+        last = errors.rstrip('\n').splitlines()[-1]
+        self.assertRegex(last, rf'^{program}: .*{pattern}', name)
+        self.assertLess(peak, PEAK, name)
+
+    def clear(self):
+        for name in os.listdir(self.folder):
+            os.remove(os.path.join(self.folder, name))
+
+    def test_clouds(self):
+        for name, points, data, body, pattern in (
+                ('PCD, compressed zeros', 20000000, 'binary_compressed', packed_zeros(240000000), 'takes .* MB of memory, expected'),
+                ('PCD, claims 10^15 points', 10**15, 'binary', bytes(1000), 'bytes of data'),
+                ('PCD, claims 4 GB compressed', 3 * 10**8, 'binary_compressed', struct.pack('<II', 100, 2**32 - 8) + bytes(100),
+                 'bytes claimed to be in'),
+                ('PCD, 10 million rows of text', 10**7, 'ascii', b'0 0 0\n' * 10**7, 'takes .* MB of memory, expected')):
+            for cloud in 'a.pcd', 'b.pcd':
+                pcd(os.path.join(self.folder, cloud), points, data, body)
+            self.explode(name, pattern, 'compute_overlap', self.folder, '--threads', '2', '--distance', '0.1')
+            self.clear()
+
+    def test_archives(self):
+        archive = os.path.join(self.folder, 'yard.tgz')
+        with tarfile.open(archive, 'w:gz') as tgz:
+            add(tgz, 'yard/csv_global/PointCloud0.csv', bytes(300000000))
+        self.explode('tgz of 300 MB of zeros', 'at most 100 times the size of the archive', 'eth_to_pcd', archive,
+                     '--root', self.root, '--threads', '2')
+        self.clear()
+        archive = os.path.join(self.folder, 'yard.zip')
+        with zipfile.ZipFile(archive, 'w', zipfile.ZIP_DEFLATED, compresslevel=9) as file:
+            file.writestr('yard/csv_global/PointCloud0.csv', bytes(300000000))
+        self.explode('zip of 300 MB of zeros', 'at most 100 times the size of the archive', 'eth_to_pcd', archive,
+                     '--root', self.root, '--threads', '2')
+        self.clear()
+        archive = os.path.join(self.folder, 'yard.tgz')
+        image = png(8192, 8192)
+        with tarfile.open(archive, 'w:gz') as tgz:
+            names = [f'{1311867000 + i}.000000' for i in range(2)]
+            add(tgz, 'yard/depth.txt', ''.join(f'{name} depth/{name}.png\n' for name in names).encode())
+            add(tgz, 'yard/groundtruth.txt', ''.join(f'{1311866000 + i} 0 0 0 0 0 0 1\n' for i in range(2000)).encode())
+            for name in names:
+                add(tgz, f'yard/depth/{name}.png', image)
+        self.explode('tgz of two PNGs of 8192 x 8192', 'pixels, expected at most', 'tum_to_pcd', archive, '--root', self.root,
+                     '--threads', '2')
+
+    def test_bag(self):
+        path = os.path.join(self.folder, 'yard.bag')
+        cloud = PointCloud2(height=1, width=20000000, point_step=16, row_step=320000000, data=bytes(320000000))
+        cloud.fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate('xyz')]
+        cloud.header.stamp = rospy.Time(1311867000)
+        with rosbag.Bag(path, 'w', compression='bz2') as bag:
+            bag.write('/cloud', cloud, cloud.header.stamp)
+        with open(os.path.join(self.folder, 'poses.txt'), 'w') as poses:
+            poses.writelines(f'{1311866000 + i} 0 0 0 0 0 0 1\n' for i in range(2000))
+        self.explode('bag, 320 MB of zeros by bz2', 'memory', 'tum_to_pcd', path, '--root', self.root, '--threads', '2',
+                     '--poses', os.path.join(self.folder, 'poses.txt'), '--input', 'clouds', '--cloud-topic', '/cloud')
+
+    def test_texts(self):
+        with open(os.path.join(self.folder, 'yard_overlap.txt'), 'w') as matrix:
+            matrix.write('overlap ' + ' '.join(f'{i}.pcd' for i in range(200000)) + '\n')
+        maths.write_cloud(os.path.join(self.folder, '0.pcd'), [maths.np.zeros(3)])
+        self.explode('matrix of 200000 clouds, no row', 'yard_overlap.txt:', 'sample_problems', self.folder, '--overlap',
+                     os.path.join(self.folder, 'yard_overlap.txt'))
+        self.clear()
+        with open(os.path.join(self.folder, 'mine_yard_local.csv'), 'w') as table:
+            table.write('id,error\n"' + '\n' * 50000000)
+        self.explode('CSV, a quote of 50 MB', 'no end of the quote', 'report', '--import',
+                     os.path.join(self.folder, 'mine_yard_local.csv'), '--output', self.path('report'))
+
+    def test_a_store_with_a_reason_of_half_a_gigabyte(self):
+        with sqlite3.connect(os.path.join(self.folder, 'results.sqlite')) as store:
+            store.executescript('CREATE TABLE run(key PRIMARY KEY, value); PRAGMA user_version = 1;'
+                                "INSERT INTO run VALUES ('secret', zeroblob(500000000))")
+        self.explode('store with 500 MB of a text', '(results.sqlite|memory)', 'report', self.folder, '--output', self.path('report'))
+
+    def test_limits_of_a_process_are_one_line(self):
+        for i in range(3):
+            maths.write_cloud(os.path.join(self.folder, f'{i}.pcd'), maths.np.random.default_rng(i).uniform(0, 9, (20000, 3)))
+        status, errors, _ = self.run_limited('pcrb_tools', 'build_map', self.folder, '-o', self.path('map.pcd'), file_size=4096)
+        self.assertEqual(status, 1, errors)
+        self.assertRegex(errors.splitlines()[-1], r'^build_map: .*map\.pcd.*(too large|File too large)')
+        self.assertFalse(os.path.exists(self.path('map.pcd')))
+        for space in range(100, 700, 100):  # MB; where even the libraries do not fit, the loader says so
+            status, errors, _ = self.run_limited('pcrb_tools', 'build_map', self.folder, '-o', self.path('map.pcd'),
+                                                 '--force', address_space=space << 20)
+            self.assertGreaterEqual(status, 0, f'{space} MB: a signal: {errors}')
+            if status:
+                self.assertRegex(errors, r'(build_map: .*(memory|Resource temporarily unavailable)|error while loading shared)')
+
+
+if __name__ == '__main__':
+    rospy.init_node('bombs_test')
+    rostest.rosrun('pcrb_launch', 'bombs', BombsTest)
