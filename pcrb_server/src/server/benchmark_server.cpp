@@ -163,7 +163,7 @@ bool BenchmarkServer::conclude() {
   session_.endRun();
   const auto summaries = record_.summary();
   const bool is_finished = done_ == plan_.problems.size();
-  const std::string table = formatSummary(summaries);
+  const std::string table = formatSummary(summaries) + record_.remarks();
   if (is_finished) record_.writeExports(table);
   std::cout << describeEnd(parameters_, table, done_, plan_.problems.size()) << std::flush;
   const bool has_readers = publications_.hasSummaryReaders();
