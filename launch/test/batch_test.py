@@ -76,7 +76,7 @@ class BatchTest(TestCase):
         self.assertRegex(batch.output(), r'66/66 problems \(100 %\)')
         self.assertRegex(batch.output(), r'total +all +66')
         self.assertEqual(processes_that_name(self.run), [])
-        self.assertIn('method:icp', run_info(self.run)['client_parameters'])
+        self.assertIn('method: icp\n', run_info(self.run)['client_parameters'])
 
         merge = [executable('pcrb_tools', 'merge_runs'), *map(self.shard, (2, 0, 1)), '-o', self.path('merged')]
         self.assert_ends_well(self.start(Child(merge)))

@@ -64,6 +64,29 @@ class BridgeAnswersTest(AnsweringTestCase):
             self.assert_motion_is_scored(self.scores(server, pose_topic='tf', tf_odom_base='none'))
             robot.close()
 
+    def test_a_robot_that_moves_is_scored_where_it_was_at_the_first_scan(self):
+        """Its localizer knows its way from tf; the scans are of the same walls, from where the sensor is by then."""
+        server = self.localization(subset=3)
+        tf = tf2_ros.Buffer()
+        listener = tf2_ros.TransformListener(tf)
+        self.addCleanup(listener.unregister)
+        publisher = self.publisher(f'{server.namespace}/robot/pose', PoseStamped)
+        starts, ways = {}, []
+
+        def publish(stamp, T):
+            link = tf.lookup_transform('odom', 'base_link', stamp, rospy.Duration(2)).transform
+            odometry = maths.transform(np.eye(3), [link.translation.x, link.translation.y, link.translation.z])
+            way = np.linalg.inv(starts.setdefault(id(robot.initial), odometry)) @ odometry
+            ways.append((odometry[0, 3], way[0, 3], maths.moved(way, maths.points_of(robot.scans[-1]))))
+            publisher.publish(make_answer(PoseStamped, stamp, T @ way))
+
+        robot = self.robot(server, publish, MOTION)
+        self.assert_motion_is_scored(self.scores(server, settle='nth', settle_count=8, speed=0.5))
+        self.assertGreater(min(way for _, way, _ in ways[7::8]), 0.05)
+        for i, (position, _, points) in enumerate(ways):
+            np.testing.assert_allclose(points, ways[i // 8 * 8][2], atol=1e-4)
+            self.assertGreaterEqual(position, ways[max(0, i - 1)][0])  # odometry goes on from problem to problem
+
     def test_an_answer_may_come_before_the_transform_that_it_needs(self):
         server = self.localization(subset=5, time_limit=5.0)
         broadcaster = tf2_ros.TransformBroadcaster()
@@ -125,6 +148,7 @@ class BridgeAnswersTest(AnsweringTestCase):
 
     def test_a_silent_node_times_out_with_the_reason(self):
         server = self.localization(time_limit=1.0, sequences='kitchen', subset=1)
+        self.publisher(f'{server.namespace}/robot/pose', PoseStamped)
         self.robot(server, lambda stamp, T: None)
         rows = self.rows_of_bridge(server, self.bridge(server, answer_limit=0.2))
         for row in rows.values():

@@ -1,20 +1,25 @@
 #!/usr/bin/env python3
 """localization_bridge: what it gives a node, services, who takes its scans beside the node, rivals, parameters."""
 import os
+import subprocess
 import sys
 
 import rosgraph
+import rospkg
 import rospy
 import rostest
 import tf2_ros
+import yaml
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, PointCloud2
 from std_srvs.srv import Empty, Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pcrb_testing import Child, executable, wait_until
+from pcrb_testing import Child, executable, run_info, select, wait_until
 from pcrb_testing_bridge import MOTION, AnsweringTestCase, link, make_answer
+
+NODES = os.path.join(rospkg.RosPack().get_path('pcrb_launch'), 'config', 'nodes')
 
 
 class BridgeBehaviourTest(AnsweringTestCase):
@@ -69,6 +74,47 @@ class BridgeBehaviourTest(AnsweringTestCase):
         self.assertEqual(len(calls), len(rows) + 1)
         self.assertEqual(calls[:2], [0, 0])
         self.assertEqual(len(set(calls)), len(rows))
+
+    def test_a_service_may_be_called_when_the_first_scan_was_taken(self):
+        server = self.localization(subset=3)
+        publisher = self.publisher(f'{server.namespace}/robot/pose', PoseStamped)
+        calls = []
+        believed = PoseWithCovarianceStamped()
+        believed.pose.pose.orientation.w = 1.0
+
+        def locate(_):
+            """The last scan that came, as nodes do that need one."""
+            calls.append(len(robot.scans))
+            robot.initial = believed
+            return True, ''
+
+        def publish(stamp, T):
+            publisher.publish(make_answer(PoseStamped, stamp, T))
+
+        robot = self.robot(server, publish, MOTION)
+        service = rospy.Service(f'{server.namespace}/locate', Trigger, locate)
+        self.addCleanup(service.shutdown)
+        rows = self.scores(server, send_initialpose=False, after_first_scan=f'{server.namespace}/locate', first_scan_settle=0.2)
+        self.assertEqual(len(calls), len(rows))
+        self.assertGreaterEqual(calls[0], 1)
+
+    def test_answers_to_all_scans_are_stored_with_their_errors_unless_they_are_not_wanted(self):
+        for is_wanted in True, False:
+            server = self.localization(run=f'stored{is_wanted}', sequences='kitchen', subset=2)
+            robot = self.answering(server)
+            rows = self.scores(server, settle='nth', settle_count=4, store_scans=is_wanted)
+            robot.close()
+            stored = select(server.run, 'scan', 'SELECT * FROM scan ORDER BY problem_id, scan')
+            if not is_wanted:
+                self.assertEqual(stored, [])
+                continue
+            for row in rows.values():
+                scans = [scan for scan in stored if scan['problem_id'] == row['problem_id']]
+                self.assertEqual([scan['scan'] for scan in scans], [1, 2, 3, 4])
+                self.assertEqual([scan['is_echo'] for scan in scans], [0] * 4)
+                self.assertEqual(scans[-1]['error'], row['error'])
+                for scan in scans:
+                    self.assertGreater(scan['answered_s'], scan['sent_s'])
 
     def spectator(self, server):
         """Somebody who takes the scans and nothing else."""
@@ -165,7 +211,8 @@ rospy.spin()
 
         self.answering(server, answer=answer)
         self.assert_fails(self.bridge(server, settle='first'),
-                          f'{rospy.get_name()} publishes the tf frame base_link; or set ~tf_odom_base:=none')
+                          rf'{rospy.get_name()} publishes the tf frame base_link \(in map\); or set ~tf_odom_base:=none')
+        self.assertEqual(server.rows(), [])  # so that the run goes on with other parameters
         self.assert_motion_is_scored(self.scores(server, tf_odom_base='none'))
 
     def test_it_lists_its_mistakes(self):
@@ -182,6 +229,40 @@ rospy.spin()
         rows = self.rows_of_bridge(server, bridge)
         self.assert_motion_is_scored(rows)
         self.assertEqual({row['scans_used'] for row in rows.values()}, {1})
+
+    def test_a_recipe_counts_where_neither_an_argument_nor_a_file_says_otherwise(self):
+        server = self.localization(subset=2)
+        self.answering(server)
+        recipe = {'repository': 'somewhere', 'bridge': {'settle': 'nth', 'settle_count': 4, 'max_scans': 30, 'scan_frame': 'lidar'}}
+        bridge = self.bridge(server, settle='stable', settle_count=5, scan_frame='sensor', recipe=recipe,
+                             bridge_parameters={'max_scans': 5})
+        rows = self.rows_of_bridge(server, bridge)
+        self.assertEqual({row['scans_used'] for row in rows.values()}, {5})  # of the argument, by the rule of the recipe
+        noted = run_info(server.run)['client_parameters']
+        self.assertIn('recipe/bridge/scan_frame: lidar\n', noted)
+        self.assertNotIn('somewhere', noted)  # words about a recipe may change
+
+    def test_each_recipe_names_parameters_of_the_bridge_and_a_launch_file(self):
+        known = subprocess.run([executable('pcrb_server', 'localization_bridge'), '--help'], check=True, stdout=subprocess.PIPE,
+                               encoding='utf-8').stdout
+        for name in os.listdir(NODES):
+            if not name.endswith('.yaml'):
+                continue
+            with open(os.path.join(NODES, name), encoding='utf-8') as file:
+                recipe = yaml.safe_load(file)
+            for key in 'repository', 'commit', 'leave_out', 'parameters', 'cost', 'answers':
+                self.assertTrue(recipe[key], f'{name}: {key}')
+            for parameter in recipe['bridge']:
+                self.assertRegex(known, rf'\n *~?{parameter}\b')
+            self.assertTrue(os.path.isfile(os.path.join(NODES, name.replace('.yaml', '.launch'))), name)
+            arguments = ['root:=/r', 'run:=/r', f'node:={name[:-5]}', 'settle:=nth']
+            text = subprocess.run(['roslaunch', '--dump-params', 'pcrb_launch', 'localization.launch', *arguments], check=True,
+                                  stdout=subprocess.PIPE, encoding='utf-8').stdout
+            parameters = yaml.safe_load(text)
+            self.assertEqual(parameters['/pcrb/localization_bridge/settle'], 'nth')
+            self.assertEqual(parameters['/pcrb/localization_bridge/recipe/bridge/map_topic'], recipe['bridge']['map_topic'])
+            self.assertEqual(parameters['/pcrb/node_supervisor/launch'], os.path.join(NODES, name.replace('.yaml', '.launch')))
+            self.assertEqual(parameters['/pcrb/benchmark_server/under_test'], name[:-5])
 
     def test_it_refuses_a_file_that_contradicts_an_argument(self):
         bridge = self.bridge(self.localization(), settle='nth', max_scans=9,

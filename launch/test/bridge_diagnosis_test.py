@@ -7,7 +7,7 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pcrb_testing import Child, executable
+from pcrb_testing import Child, executable, select
 from pcrb_testing_bridge import MOTION, AnsweringTestCase
 
 STAMP = r'^stamp: \d+ poses? with the stamp of no scan, 0\.\d+ s later'
@@ -16,9 +16,9 @@ DIAGNOSES = {
     'ahead': r'^stamp: \d+ poses? with the stamp of no scan, 0\.200 s later: set ~answer_delay:=0\.200$',
     'frame': r'^frame: \d+ poses?: tf does not connect the pose of `` in `world` with `base_link` and `map`$',
     'nan': r'^invalid: \d+ poses?: \S+/pose: .*(finite|quaternion)',
-    'silent': r'^silent: the node said nothing to \d+ scans?, and worked for \d+\.\d s: .*see what it printed$',
-    'elsewhere': r'^topic: the node said nothing to \d+ scans?: no node publishes \S+/robot/pose; poses are published on '
-                 r'\S+/robot/somewhere \(geometry_msgs/PoseStamped by \S+/ill_mannered_localizer\)$'}
+    'silent': r'^silent: the node said nothing to \d+ scans?, and worked for \d+\.\d s: .*see what it printed$'}
+TOPIC = (r'the node said nothing to \d+ scans?: no node publishes \S+/robot/pose; poses are published on '
+         r'\S+/robot/somewhere \(geometry_msgs/PoseStamped by \S+/ill_mannered_localizer\): set ~pose_topic')
 
 
 class BridgeDiagnosisTest(AnsweringTestCase):
@@ -46,6 +46,37 @@ class BridgeDiagnosisTest(AnsweringTestCase):
             self.assertRegex(row['reason'], diagnosis)
             code = row['reason'].split(':')[0]
             self.assertRegex(output, rf'problems without an answer, by cause .*\n  1 × {code}: ')
+
+    def test_a_wrong_topic_is_refused_before_a_problem_counts(self):
+        server = self.localization(run='elsewhere', sequences='kitchen', subset=2, time_limit=1.5)
+        self.ill_mannered(server, 'elsewhere')
+        self.assert_fails(self.bridge(server, answer_limit=0.2), TOPIC)
+        self.assertEqual(server.rows(), [])
+        somewhere = f'{server.namespace}/robot/somewhere'
+        rows = self.rows_of_bridge(server, self.bridge(server, settle='first', pose_topic=somewhere))
+        self.assertEqual({row['outcome'] for row in rows.values()}, {'replied'})
+
+    def test_a_node_that_brings_a_map_and_tf_of_its_own_is_refused_before_a_problem_counts(self):
+        server = self.localization(run='owner', sequences='kitchen', subset=1)
+        self.ill_mannered(server, 'owner')
+        self.assert_fails(self.bridge(server), r'ill_mannered_localizer publishes \S+/robot/map',
+                          r'publishes the tf frame sensor \(in base_link\); or set ~tf_base_scan:=none')
+        self.assertEqual(server.rows(), [])
+
+    def test_a_node_that_dies_of_its_first_scan_has_left(self):
+        (row,), output = self.run_with('crash')
+        self.assertEqual((row['outcome'], row['reason']), ('failed', 'the node under test left while it had the problem'))
+        self.assertIn('the node under test has left', output)
+
+    def test_a_node_that_takes_the_correction_for_motion_shows_which_answer_was_good(self):
+        rows, output = self.run_with('velocity', subset=2, settle='nth', settle_count=8)
+        for row in rows:
+            self.assertGreater(row['error'], row['initial_misalignment'])
+            first = select(self.path('velocity'), 'scan', f"SELECT * FROM scan WHERE problem_id = '{row['problem_id']}' AND scan = 1")
+            self.assertLess(first[0]['error'], row['initial_misalignment'])
+        self.assertIn('warning: the median error of', output)
+        with open(self.path('velocity', 'summary.txt'), encoding='utf-8') as file:
+            self.assertRegex(file.read(), r'worse than that: 2 of 2 replies.*\nwarning: the replies are worse than doing nothing')
 
     def test_the_advice_helps(self):
         (row,), _ = self.run_with('ahead', answer_delay=0.2, settle='first')

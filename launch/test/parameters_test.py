@@ -129,7 +129,7 @@ class ParametersTest(TestCase):
         rospy.set_param(rospy.get_name(), {'method': 'gicp'})
         server = self.start(server.again())
         client.serve(server)
-        self.assert_fails(server, r'client_parameters: the run has `\[method:icp\]`, asked for `\[method:gicp\]`')
+        self.assert_fails(server, r'client_parameters: the run has `method: icp`, asked for `method: gicp`')
         rospy.set_param(rospy.get_name(), {'method': 'icp'})
         server = self.start(server.again())
         client.serve(server)

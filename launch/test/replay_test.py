@@ -147,16 +147,22 @@ class ReplayTest(TestCase):
         scans, poses, _ = self.hall()
         stamps = self.path('scans.txt')
         replay = self.replay(root=self.data.root, sequence='hall', truth=False, map_file=maths.SEQUENCES['hall'][1],
-                             stamps_file=stamps)
+                             stamps_file=stamps, map_settle=0.2)
         for i in (0, 2):
             scan, = self.step('scan')
+            self.assertTrue(self.viewer.of('initialpose') and self.viewer.of('map'))  # before the first scan
             self.assertEqual(scan.header.frame_id, 'pcrb_scan')
             np.testing.assert_allclose(maths.moved(poses[i], maths.points_of(scan)), scans[i], atol=FLOAT32)
         self.assert_ends_well(replay)
-        wait_until(lambda: self.viewer.of('initialpose') and self.viewer.of('map'), 'initialpose and map come')
         self.assertEqual(len(self.viewer.of('initialpose')), 1)
-        self.assert_pose(self.viewer.of('initialpose')[0].pose.pose, poses[0])
-        self.assert_points(self.viewer.of('map')[0], scans[1])
+        initial, first_map, first_scan = (self.viewer.of(topic)[0] for topic in ('initialpose', 'map', 'scan'))
+        self.assert_pose(initial.pose.pose, poses[0])
+        self.assertEqual([initial.pose.covariance[i] for i in (0, 7, 14, 35)], [0.25, 0.25, 0.0, 0.26 ** 2])
+        self.assert_points(first_map, scans[1])
+        self.assertEqual((initial.header.stamp - first_map.header.stamp).to_sec(), 0.2)
+        self.assertEqual((first_scan.header.stamp - initial.header.stamp).to_sec(), 0.1)
+        self.assertEqual({'intensity'} & {field.name for field in first_scan.fields}, {'intensity'})
+        self.assertIn(('base_link', 'pcrb_scan'), self.viewer.transforms)
         for topic in 'sensor', 'path', 'markers':
             self.assertEqual(self.viewer.of(topic), [])
         self.assertNotIn(('map', 'pcrb_sensor'), self.viewer.transforms)

@@ -10,7 +10,7 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pcrb_testing import Child, Launch, executable, rows, wait_until
+from pcrb_testing import Child, Launch, executable, rows, run_info, wait_until
 from pcrb_testing_bridge import BridgeTestCase
 
 NODE = '/ndt_localizer'
@@ -94,12 +94,41 @@ class SupervisorTest(BridgeTestCase):
         self.assertRegex(launch.output(), r'within 1 s \(~connect_limit; .*/pcrb/localization_bridge')
 
     def test_a_launch_file_that_fails_at_once_ends_the_whole_launch(self):
-        """roslaunch lets arguments pass that a file does not have, so it takes a file that is not there."""
-        launch = self.launch(node_launch='localization_standins no_such.launch', node_args='')
-        launch.wait()
-        self.assertEqual(launch.output().count('no_such.launch] is neither'), 3, launch.output())
-        self.assertIn('ended 3 times as soon as it was started', launch.output())
-        self.assertEqual(rows(self.path('run')), [])
+        for arguments, reason in (
+                ({'node_launch': 'localization_standins no_such.launch', 'node_args': ''}, r'no_such\.launch'),
+                ({'node_args': 'map_topic=/points_map scn_topic=/points_raw'},
+                 r'ndt_localizer\.launch: found argument `scn_topic`, expected map_topic, scan_topic: did you mean scan_topic\?')):
+            launch = self.launch(**arguments)
+            launch.wait()
+            self.assertRegex(launch.output(), reason)
+            self.assertIn('launch file cannot be started as asked', launch.output())
+            self.assertEqual(rows(self.path('run')), [])
+
+    def test_a_run_goes_on_only_with_the_same_launch_file_programs_and_parameters(self):
+        file = self.path('mine.launch')
+
+        def launch(steps):
+            with open(file, 'w', encoding='utf-8') as out:
+                out.write(f"""<launch>
+  <arg name="map_topic"/> <arg name="scan_topic"/>
+  <include file="$(find localization_standins)/launch/ndt_localizer.launch" pass_all_args="true"/>
+  <param name="/ndt_localizer/steps" value="{steps}"/>
+</launch>
+""")
+            started = self.launch(node_launch=file, subset=2)
+            started.wait()
+            return started.output()
+
+        launch(steps=20)
+        self.assertEqual([row['outcome'] for row in rows(self.path('run'))], ['replied'] * 2)
+        noted = run_info(self.path('run'))['client_parameters'].splitlines()
+        self.assertIn('node /ndt_localizer/steps: 20', noted)
+        kinds = [' '.join(line.split()[:3]) for line in noted if line.startswith('node ')]
+        for kind in ('node file mine.launch:', 'node file ndt_localizer.launch:', 'node program localization_standins/ndt_localizer:'):
+            self.assertIn(kind, kinds)
+        self.assertRegex(launch(steps=30), r'client_parameters: the run has `node file mine\.launch: [0-9a-f]{16}, node '
+                         r'/ndt_localizer/steps: 20`, asked for `node file mine\.launch: [0-9a-f]{16}, node /ndt_localizer/steps: 30`')
+        self.assertNotIn('client_parameters: ', launch(steps=20))
 
     def test_it_does_not_outlive_the_process_that_started_it(self):
         rospy.set_param('/orphan/node_supervisor', {'launch': 'localization_standins ndt_localizer.launch'})

@@ -29,6 +29,13 @@ PoseCovariance rotatedCovariance(const PoseCovariance& in_parent,
   return propagated(in_parent, J);
 }
 
+PoseCovariance planarCovariance(double position, double angle) {
+  PoseCovariance covariance{};
+  covariance[0] = covariance[7] = position * position;
+  covariance[35] = angle * angle;
+  return covariance;
+}
+
 PoseCovariance mountedCovariance(const PoseCovariance& of_a, const Transform& T_map_a,
                                  const Transform& T_a_b) {
   // d p_b = d p_a + d theta × arm

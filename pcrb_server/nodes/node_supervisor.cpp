@@ -18,7 +18,9 @@ supervisor's namespace. The supervisor ends with the process that started it, as
 
 int main(int argc, char** argv) {
   return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownRequest& shutdown) {
-    pcrb::NodeSupervisor(pcrb::readSupervisorParameters(), shutdown).run();
+    const auto parameters = pcrb::readSupervisorParameters();
+    pcrb::describeLaunch(parameters, shutdown);
+    pcrb::NodeSupervisor(parameters, shutdown).run();
     return 0;
   });
 }

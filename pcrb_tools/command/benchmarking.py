@@ -14,6 +14,7 @@ import time
 from xml.sax.saxutils import quoteattr
 
 import places
+import recipes
 from options import Option, did_you_mean, given, one_of
 from programs import NotBuilt, launch_options, program, run_program, shared
 from words import WORDS
@@ -21,7 +22,7 @@ from words import WORDS
 MASTER = Option('master', 'ROS master: one of its own on a free port, or the one at ROS_MASTER_URI',
                 choices=('own', 'current'), default='own')
 JSON = Option('json', 'print the result as JSON and nothing else', 'flag')
-OWN_SETTINGS = ('shard', 'autostart', 'required', 'client', 'under-test', 'connect-limit', 'ready-limit', 'loop')
+OWN_SETTINGS = ('node', 'shard', 'autostart', 'required', 'client', 'under-test', 'connect-limit', 'ready-limit', 'loop')
 CHOICES = {'restart': ('never', 'target', 'problem'), 'settle': ('first', 'nth', 'stable', 'deadline'),
            'order': ('finished', 'worst', 'best')}
 
@@ -53,7 +54,7 @@ class Benchmark:
             return [f'--root: found no problem file below {values["root"]}, expected DATA_SET/SEQUENCE_{values["kind"]}.txt '
                     '(pcrb prepare makes them)']
         _, mistakes = places.select(values['sequences'], known, values['root'])
-        return mistakes + method_mistakes(values) + master_mistakes(values)
+        return mistakes + method_mistakes(values) + recipes.mistakes(values.get('node')) + master_mistakes(values)
 
     def arguments(self, options, values):
         always = ('root', 'time-limit')
@@ -89,7 +90,7 @@ def method_mistakes(values):
 def master_mistakes(values):
     if values['master'] == 'own':
         has_node = values.get('node', 'none is needed')
-        return [] if has_node else ['--node: must be given: launch file of the node, or package and file']
+        return [] if has_node else ['--node: must be given: launch file of the node, package and file, or recipe (pcrb recipes)']
     mistakes = [] if values['jobs'] == 1 else ['--jobs: found several, expected 1 with --master current']
     if not has_master():
         uri = os.environ.get('ROS_MASTER_URI')
@@ -101,6 +102,10 @@ def assignment(option, values):
     value = values[option.name]
     if isinstance(value, list):
         value = ' '.join(value)
+    if option.source == 'node_launch' and recipes.is_recipe(value):
+        return f'node:={value}'
+    if option.source == 'node_launch' and os.path.isfile(value):
+        value = os.path.abspath(value)
     if option.kind == 'flag':
         value = 'true' if value else 'false'
     if option.kind in ('folder', 'file', 'path') and value:
@@ -113,6 +118,7 @@ CLIENT_LAUNCH = '''<launch>
   <arg name="presentation" default="registration"/> <arg name="subset" default="0"/> <arg name="seed" default="1"/>
   <arg name="shard" default="0/1"/> <arg name="time_limit" default="10"/> <arg name="rviz" default="false"/>
   <arg name="audit" default="false"/> <arg name="results" default="$(eval 'live' if arg('rviz') else 'end')"/>
+  <arg name="yaw_only" default="false"/> <arg name="global_guess" default="false"/>
   <include file="$(find pcrb_launch)/benchmark.launch" pass_all_args="true">
     <arg name="client" value="false"/>
     <arg name="under_test" value={name}/>
@@ -209,7 +215,8 @@ def result_of(run):
     if not os.path.isfile(summary):
         return result
     with open(summary, encoding='utf-8') as file:
-        header, *rows = [line.split() for line in file if line.strip()]
+        table = file.read().partition('\n\n')[0]  # remarks are below it
+    header, *rows = [line.split() for line in table.splitlines()]
     for row in rows:
         result['sequences'].append({name: number_of(text) for name, text in zip(header, row)})
     return result

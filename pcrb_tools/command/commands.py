@@ -5,6 +5,7 @@ from typing import Any
 import comparison
 import demo
 import doctor
+import probe
 import scoring
 import texts
 from benchmarking import Benchmark, Replay
@@ -65,8 +66,10 @@ COMMANDS = [
     Command('run', 'run', 'benchmark a registration method, or a client of your own', Benchmark('benchmark.launch', {
         'time-limit': {'default': TIME_LIMIT}}, [CLIENT]), 'pcrb run --root ~/pcrb --run ~/runs/gicp --method gicp --subset 100'),
     Command('localize', 'run', 'benchmark a localization node as it is', Benchmark('localization.launch', {
-        'time-limit': {'default': TIME_LIMIT}}),
+        'time-limit': {'default': TIME_LIMIT}, 'bridge-parameters': {'kind': 'file', 'metavar': 'FILE'}}),
             'pcrb localize --root ~/pcrb --run ~/runs/amcl3d --sequences planetary_map --node "my_package my_node.launch"'),
+    Command('probe', 'run', 'find out how a localization node is benchmarked', Module(probe),
+            'pcrb probe --node "my_package my_node.launch" --output my_node.yaml'),
     Command('paper', 'run', f'the experiments of the paper ({", ".join(METHODS)}), and a method of your own beside them', Tool('run_paper', changes={
         'sequences': {'default': None, 'shown_default': 'all'}}, more=paper_mistakes), 'pcrb paper --root ~/pcrb --run ~/runs/paper --subset 100'),
     Command('score', 'results', 'score poses of problems or of a trajectory, without ROS', scoring.Score(),

@@ -1,4 +1,5 @@
 """Commands that print texts: recipes, completion, and the table of all options."""
+import recipes
 from options import Option, bounds, words_of
 
 COMMANDS = []  # the table, which is complete once all modules are loaded
@@ -13,7 +14,7 @@ class Recipes:
 
     @staticmethod
     def run(name, options, values):
-        print(RECIPES, end='')
+        print(RECIPES, 'Localization nodes that pcrb knows (--node NAME):\n', recipes.listing(), sep='\n', end='')
         return 0
 
 
@@ -32,6 +33,7 @@ Benchmark a method of your own, from a shared library or as a client of any lang
 Benchmark a localization node as it is:
   pcrb localize --root ~/pcrb --run ~/runs/node --sequences planetary_map --node "my_package my.launch" \\
     --map-topic /points_map --scan-topic /points_raw --pose-topic /ndt_pose
+  pcrb localize --root ~/pcrb --run ~/runs/hdl --sequences planetary_map --node hdl_localization
 
 Compare it with the paper's methods:
   pcrb paper --root ~/pcrb --run ~/runs/paper --subset 100

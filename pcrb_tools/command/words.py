@@ -12,6 +12,7 @@ WORDS = {option.name: option for option in (
     Option('sequences', 'sequences, data sets or data_set/sequence', metavar='NAME', many=True),
     Option('kind', 'kind of problems: small initial misalignments, or large ones', choices=('local', 'global', 'both')),
     Option('method', 'registration method', metavar='NAME'),
+    Option('node', 'launch file of the node, its package and file, or a recipe\'s name', metavar='NODE'),
     Option('plugin', 'shared library with registration methods of your own', 'path', 'FILE'),
     Option('parameters', 'YAML file of the method\'s parameters', 'file'),
     Option('presentation', 'how problems are shown: two clouds, or a map and a scan in its sensor\'s frame',

@@ -143,7 +143,7 @@ def draw_section(section, folder):
     colors = charts.color_of(section)
     save(medians(section, colors), folder, f'{kind}_medians')
     save(solved(section, colors), folder, f'{kind}_solved')
-    for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap')):
+    for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap'), ('over_scans', 'scan')):
         if numbers[name]:
             save(binned(numbers[name], colors, x_name), folder, f'{kind}_{name}')
     for method in section['methods']:

@@ -5,7 +5,7 @@ import charts
 from svg import error, interval
 
 PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('audit', 'audit'), ('solved', 'solved'),
-         ('dependence', 'dependence'), ('distributions', 'distributions'), ('axes', 'axes'), ('times', 'times'),
+         ('dependence', 'dependence'), ('distributions', 'distributions'), ('axes', 'axes'), ('times', 'times'), ('settling', 'settling'),
          ('overlap', 'overlap'), ('problems', 'problems'), ('published', 'published')]
 TOO_FEW = 'too few pairs to tell'  # the verdict of a test that could not reject
 HEADINGS = {'sequence': 'Sequences', 'data set': 'Data sets', 'group': 'By characteristic', 'total': 'All problems'}
@@ -155,7 +155,8 @@ def histograms_of(section, colors):
 
 def parts_of(section):
     """What the page's bar of links leads to: the parts that this section has."""
-    absent = {part for part, table in (('differences', 'comparisons'), ('audit', 'audit'), ('axes', 'components'), ('times', 'runtimes'))
+    absent = {part for part, table in (('differences', 'comparisons'), ('audit', 'audit'), ('axes', 'components'),
+                                         ('times', 'runtimes'), ('settling', 'keeping_up'))
               if table not in section['tables']}
     if not section['charts']['overlaps']:
         absent.add('overlap')
@@ -164,7 +165,7 @@ def parts_of(section):
 
 def view(section):
     tables = section['tables']
-    for name in ('comparisons', 'audit', 'recall', 'runtimes', 'components', 'ground_truth'):
+    for name in ('comparisons', 'audit', 'recall', 'runtimes', 'settling', 'keeping_up', 'components', 'ground_truth'):
         tables.setdefault(name, None)
     present = {name: table for name, table in tables.items() if table}
     section['tables'] = present
@@ -195,6 +196,7 @@ def view(section):
         'overlaps': drawn(section['charts']['overlaps'], charts.overlaps),
         'recall_totals': only_totals(present['recall']) if 'recall' in present else None,
         'runtime_totals': only_totals(present['runtimes']) if 'runtimes' in present else None,
+        'over_scans': drawn(section['charts']['over_scans'], lambda panel: charts.binned(panel, colors, 'scan')),
         'latencies': trusted(charts.latencies(present['runtimes'], colors)) if 'runtimes' in present else None,
     }
     if 'components' in present:

@@ -33,6 +33,9 @@ int main(int argc, char** argv) {
   app.add_option("--scan-frame", options.sequence.scan_frame,
                  "tf frame of the scans, without truth")
       ->capture_default_str();
+  options.sequence.base_frame = "base_link";
+  app.add_option("--base-frame", options.sequence.base_frame, "tf frame of the robot's body")
+      ->capture_default_str();
   app.add_option("--map-frame", options.sequence.map_frame, "tf frame of the map")
       ->capture_default_str();
   app.add_option("--scans", options.scans,

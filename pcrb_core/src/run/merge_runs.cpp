@@ -45,6 +45,8 @@ struct ShardRun {
 ShardRun readShardRun(const std::string& folder) {
   const ResultsStore store(folder, ResultsStore::Access::kReadOnly);
   ShardRun part{folder, RunInfo::read(store), store.results(), store.sessions()};
+  auto scans = store.scans();
+  for (Result& result : part.results) result.scans = std::move(scans[result.key]);
   if (part.info.isOfARun()) return part;
   throw StoreError(store.path() +
                    ": found shard `` in the run table, expected i/N: is this a run?");
@@ -137,7 +139,7 @@ std::string writeRun(const std::string& folder, const std::vector<ShardRun>& par
     if (session.ended) store.endSession(*session.ended);
   }
   store.exportCsv();
-  const std::string summary = formatSummary(summarize(results));
+  const std::string summary = formatSummary(summarize(results)) + describeScans(results);
   writeFileAtomically(folder + "/summary.txt", summary);
   return summary;
 }

@@ -35,6 +35,10 @@ void requireColumns(Database& database, const std::string& table, const std::str
       ", expected a results store with columns " + expected);
 }
 
+bool hasTable(Database& database, const std::string& table) {
+  return !columnsOf(database, table).empty();
+}
+
 /// That this is a results store of this version, and intact.
 void requireStore(Database& database) {
   const std::string version = database.value("PRAGMA user_version", kOpen);
@@ -45,6 +49,7 @@ void requireStore(Database& database) {
   requireColumns(database, "run", "key, value");
   requireColumns(database, "session", "started, ended, host, pid");
   requireColumns(database, "result", kResultColumns);
+  if (hasTable(database, "scan")) requireColumns(database, "scan", kScanColumns);
   const std::string check = database.value("PRAGMA quick_check(1)", "check its integrity");
   if (check != "ok") {
     throw StoreError(database.path() + ": found a damaged database (" + check +
@@ -100,6 +105,7 @@ Database openStoreForWriting(const std::string& path) {
   if (!blank) requireStore(database);
   requireDurability(database);
   if (blank) makeTables(database);
+  database.execute(kScanSchema, "make the table of scans");
   return database;
 }
 

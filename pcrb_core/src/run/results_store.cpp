@@ -75,7 +75,9 @@ struct ResultsStore::Impl {
         lock(access == Access::kReadWrite ? makeLock(folder) : nullptr),
         database(access == Access::kReadWrite ? openStoreForWriting(storePath(folder))
                                               : openStoreForReading(storePath(folder))) {
-    if (lock) insert_result.emplace(database, insertResultSql(), "add a result");
+    if (!lock) return;
+    insert_result.emplace(database, insertResultSql(), "add a result");
+    insert_scan.emplace(database, insertScanSql(), "add a scan");
     file = fileNumber(database.path());
   }
 
@@ -109,6 +111,7 @@ struct ResultsStore::Impl {
   Database database;
   std::optional<FileNumber> file;          // that the database is in
   std::optional<Statement> insert_result;  // none where the store is read only
+  std::optional<Statement> insert_scan;    // as well
   std::optional<std::int64_t> session;     // row of the session that this object began
 };
 
@@ -186,9 +189,17 @@ std::vector<Session> ResultsStore::sessions() const {
   return sessions;
 }
 
+void ResultsStore::add(const Result& result) { addAll({result}); }
+
 void ResultsStore::addAll(const std::vector<Result>& results) {
+  if (!impl_->insert_result) throw StoreError(path() + ": cannot add a result: opened read only");
   Transaction transaction(impl_->database, "add results");
-  for (const Result& result : results) add(result);
+  for (const Result& result : results) {
+    insert(result);
+    for (const ScanRecord& record : result.scans) {
+      impl_->insert_scan->run([&](Statement& row) { bindScan(result.key, record, row); });
+    }
+  }
   transaction.commit();
 }
 
@@ -198,8 +209,7 @@ std::size_t ResultsStore::count() const {
   return static_cast<std::size_t>(row.integer(0));
 }
 
-void ResultsStore::add(const Result& result) {
-  if (!impl_->insert_result) throw StoreError(path() + ": cannot add a result: opened read only");
+void ResultsStore::insert(const Result& result) {
   requireStorable(result, path());
   try {
     impl_->insert_result->run([&](Statement& row) { bindResult(result, row); });
@@ -226,6 +236,18 @@ std::vector<Result> ResultsStore::results() const {
   std::vector<Result> results;
   while (rows.step()) results.push_back(readResult(rows, path()));
   return results;
+}
+
+std::map<ProblemKey, std::vector<ScanRecord>> ResultsStore::scans() const {
+  std::map<ProblemKey, std::vector<ScanRecord>> scans;
+  constexpr const char* kAction = "read the scans";
+  if (impl_->database.value("SELECT name FROM sqlite_master WHERE name = 'scan'", kAction)
+          .empty()) {
+    return scans;  // of an older version
+  }
+  Statement rows(impl_->database, std::string("SELECT ") + kScanColumns + " FROM scan", kAction);
+  while (rows.step()) scans[readKey(rows, path())].push_back(readScan(rows));
+  return scans;
 }
 
 void ResultsStore::exportCsv() const try {

@@ -1,6 +1,7 @@
 #include "pcrb_core/run/run_info.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "pcrb_core/error.hpp"
@@ -44,6 +45,25 @@ bool isCompared(RunKeyRole role, RunInfo::Scope scope) {
 std::optional<std::string> valueOfKey(const RunTable& table, const std::string& key) {
   const auto found = table.find(key);
   return found == table.end() ? std::nullopt : std::make_optional(found->second);
+}
+
+/// The lines of a text that another one has not, separated by `, `.
+std::string linesOnlyIn(const std::string& text, const std::string& other) {
+  std::istringstream lines(text);
+  std::string found;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_common = ("\n" + other + "\n").find("\n" + line + "\n") != std::string::npos;
+    if (!is_common) found += (found.empty() ? "" : ", ") + line;
+  }
+  return found;
+}
+
+/// Of parameters, a line each, those that differ.
+void keepDifferentLines(RunInfo::Difference& difference) {
+  if (!difference.here || !difference.there) return;
+  const std::string here = *difference.here;
+  difference.here = linesOnlyIn(here, *difference.there);
+  difference.there = linesOnlyIn(*difference.there, here);
 }
 
 }  // namespace
@@ -110,7 +130,9 @@ std::vector<RunInfo::Difference> RunInfo::differences(const RunInfo& other, Scop
     const NamedRunTableRows* rows = findNamedRunTableRows(key);
     const bool is_cloud = rows != nullptr && rows->member == &RunInfo::clouds;
     if (is_cloud && (!difference.here || !difference.there)) continue;  // only one has used it
-    if (difference.here != difference.there) differences.push_back(std::move(difference));
+    if (difference.here == difference.there) continue;
+    keepDifferentLines(difference);
+    differences.push_back(std::move(difference));
   }
   return differences;
 }

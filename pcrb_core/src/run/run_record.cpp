@@ -18,19 +18,8 @@ std::string hostName() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-/// The lines of a text that another one has not: of a method's parameters, those that differ.
-std::string linesOnlyIn(const std::string& text, const std::string& other) {
-  std::istringstream lines(text);
-  std::string found;
-  for (std::string line; std::getline(lines, line);) {
-    const bool is_common = ("\n" + other + "\n").find("\n" + line + "\n") != std::string::npos;
-    if (!is_common) found += (found.empty() ? "" : ", ") + line;
-  }
-  return found;
-}
-
-std::string inBackticks(const std::optional<std::string>& value, const std::string& other) {
-  return value ? "`" + linesOnlyIn(*value, other) + "`" : "nothing";
+std::string inBackticks(const std::optional<std::string>& value) {
+  return value ? "`" + *value + "`" : "nothing";
 }
 
 /// A line for each difference between what a run has (here) and what it was asked for (there).
@@ -39,8 +28,7 @@ std::string describeDifferences(const std::vector<RunInfo::Difference>& differen
   for (const auto& [key, here, there] : differences) {
     text += "\n  " + key + ": ";
     text += !there ? "not selected"  // of a problem file that the run has
-                   : "the run has " + inBackticks(here, *there) + ", asked for " +
-                         inBackticks(there, here.value_or(""));
+                   : "the run has " + inBackticks(here) + ", asked for " + inBackticks(there);
   }
   return text;
 }

@@ -20,10 +20,11 @@ bool areComposable(const double* numbers, std::size_t count) {
 
 Defect notFinite(const std::string& message) { return {Defect::Kind::kNotFinite, message}; }
 
-std::optional<Defect> checkPose(const Submission& submission) {
-  const Eigen::Vector4d q = submission.orientation.coeffs();
-  const PoseCovariance covariance = submission.covariance.value_or(PoseCovariance{});
-  if (!areComposable(submission.position.data(), 3) || !areComposable(q.data(), 4) ||
+std::optional<Defect> checkPose(const Eigen::Vector3d& position,
+                                const Eigen::Quaterniond& orientation,
+                                const PoseCovariance& covariance) {
+  const Eigen::Vector4d q = orientation.coeffs();
+  if (!areComposable(position.data(), 3) || !areComposable(q.data(), 4) ||
       !areComposable(covariance.data(), covariance.size())) {
     return notFinite("found a NaN, infinite or huge number in the pose, expected finite ones");
   }
@@ -34,6 +35,37 @@ std::optional<Defect> checkPose(const Submission& submission) {
 }
 
 bool isTime(double seconds) { return seconds >= 0.0 && std::isfinite(seconds); }
+
+/// In order, so that each has a row of its own, and with poses that can be scored.
+std::optional<Defect> checkScans(const std::vector<ScanRecord>& scans) {
+  std::uint32_t last = 0;
+  for (const ScanRecord& record : scans) {
+    const std::string which = "scans[" + std::to_string(&record - scans.data()) + "]: ";
+    if (record.scan <= last) return notFinite(which + "expected numbers from 1 that increase");
+    last = record.scan;
+    if (!isTime(record.sent) || !isTime(record.answered.value_or(0.0))) {
+      return notFinite(which + "found a time that is none, expected 0 or more");
+    }
+    if (!record.position) continue;
+    auto defect = checkPose(*record.position, *record.orientation, PoseCovariance{});
+    if (defect) return Defect{defect->kind, which + defect->message};
+  }
+  return std::nullopt;
+}
+
+/// Scans with the poses of their answers in the target's frame.
+std::vector<ScanRecord> placedScans(std::vector<ScanRecord> scans,
+                                    const std::optional<Transform>& T_target_frame) {
+  for (ScanRecord& record : scans) {
+    if (!record.position) continue;
+    record.orientation->normalize();
+    if (!T_target_frame) continue;
+    *record.position = *T_target_frame * *record.position;
+    *record.orientation =
+        (Eigen::Quaterniond(T_target_frame->linear()) * *record.orientation).normalized();
+  }
+  return scans;
+}
 
 Outcome outcomeOf(Submission::Status status) {
   if (status == Submission::Status::kPose) return Outcome::kReplied;
@@ -70,7 +102,10 @@ std::optional<Defect> checkSubmission(const Submission& submission) {
     return notFinite("found cpu_time " + std::to_string(submission.cpu_time) +
                      ", expected 0 or more, 0 for unknown");
   }
-  return submission.status == Submission::Status::kPose ? checkPose(submission) : std::nullopt;
+  if (auto defect = checkScans(submission.scans)) return defect;
+  if (submission.status != Submission::Status::kPose) return std::nullopt;
+  return checkPose(submission.position, submission.orientation,
+                   submission.covariance.value_or(PoseCovariance{}));
 }
 
 std::optional<Defect> checkPlaced(const Submission& submission, const Transform& T_target_frame) {
@@ -87,6 +122,7 @@ Reply makeReply(const Submission& submission, const std::optional<Transform>& T_
   if (submission.scans_used > 0) reply.scans_used = submission.scans_used;
   reply.cpu_time = submission.cpu_time;
   reply.peak_memory = submission.peak_memory;
+  reply.scans = placedScans(submission.scans, T_target_frame);
   if (reply.outcome == Outcome::kReplied) {
     placePose(submission, T_target_frame, reply);
   } else if (reply.reason.empty()) {
@@ -112,6 +148,12 @@ Result score(const PosedProblem& posed, const Reply& reply) {
     result.covariance = reply.covariance;
     const Transform T = makeTransform(reply.position, reply.orientation);
     setError(posed.source->metric->evaluate(posed.presentation.residual(T)), result);
+  }
+  result.scans = reply.scans;
+  for (ScanRecord& record : result.scans) {
+    if (!record.position) continue;
+    const Transform T = makeTransform(*record.position, *record.orientation);
+    record.error = posed.source->metric->evaluate(posed.presentation.residual(T)).error;
   }
   result.runtime = reply.runtime;
   result.solver_time = reply.solver_time;

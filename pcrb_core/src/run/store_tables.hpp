@@ -10,6 +10,20 @@ namespace pcrb {
 /// Statements that make the tables of a results store (docs/formats.md).
 extern const char* const kResultsSchema;
 
+/// Statement that makes the table of scans, which stores of older versions lack.
+extern const char* const kScanSchema;
+
+/// Names of the columns of table `scan`, in order, separated by `, `.
+extern const char* const kScanColumns;
+
+/// `INSERT` of one scan, for bindScan.
+std::string insertScanSql();
+
+void bindScan(const ProblemKey& key, const ScanRecord& record, Statement& statement);
+
+/// Reads a row of `SELECT kScanColumns`.
+ScanRecord readScan(const Statement& row);
+
 /// Names of the columns of table `result`, in order, separated by `, `.
 extern const char* const kResultColumns;
 

@@ -83,4 +83,27 @@ std::string formatSummary(const std::vector<SequenceSummary>& summaries) {
   return alignColumns(rows, kTextColumns);
 }
 
+std::string describeScans(const std::vector<Result>& results) {
+  std::vector<double> errors, misalignments;
+  std::size_t worse = 0, unsettled = 0;
+  for (const Result& result : results) {
+    if (result.outcome != Outcome::kReplied || !result.scans_used) continue;
+    errors.push_back(result.error);
+    misalignments.push_back(result.initial_misalignment);
+    worse += result.error > result.initial_misalignment ? 1 : 0;
+    unsettled += result.reason.rfind(kNotSettled, 0) == 0 ? 1 : 0;
+  }
+  if (errors.empty()) return "";
+  const std::string of_replies = " of " + std::to_string(errors.size()) + " replies";
+  const double error = describe(errors).median, untouched = describe(misalignments).median;
+  std::string text = "\ndo nothing: median " + formatError(untouched) +
+                     "; worse than that: " + std::to_string(worse) + of_replies +
+                     "; not settled: " + std::to_string(unsettled) + of_replies + "\n";
+  if (error > untouched) {
+    text += "warning: the replies are worse than doing nothing: median " + formatError(error) +
+            " of those that came\n";
+  }
+  return text;
+}
+
 }  // namespace pcrb

@@ -57,6 +57,14 @@ TEST_F(RunRecordTest, GoesOnWithTheClientThatTheResultsAreFromAlone) {
   EXPECT_EQ(info().at("client_parameters"), "[method:icp]");
 }
 
+TEST_F(RunRecordTest, NamesOnlyTheParametersThatDiffer) {
+  play("/alpha", "leaf: 0.1\nmethod: icp\nnode program a/b: 12ab\n");
+  expectRefusal(
+      "/alpha", "leaf: 0.1\nmethod: gicp\nnode program a/b: 34cd\n",
+      "\n  client_parameters: the run has `method: icp, node program a/b: 12ab`, asked for "
+      "`method: gicp, node program a/b: 34cd`");
+}
+
 TEST_F(RunRecordTest, RecordsThatAClientHasNoParameters) {
   play("/alpha");
   EXPECT_EQ(info().at("client_parameters"), "");

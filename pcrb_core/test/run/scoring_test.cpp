@@ -205,5 +205,33 @@ TEST_F(ScoringTest, KeepsWhatTheRowAndTheReplySay) {
   EXPECT_GT(result.finished, 1e9);
 }
 
+TEST_F(ScoringTest, ScoresTheAnswerToEveryScanLikeTheReply) {
+  const PosedProblem posed = pose({PresentationKind::kLocalization, false});
+  Submission submission = poseAt(posed.presentation.guess.translation());
+  submission.orientation = Eigen::Quaterniond(posed.presentation.guess.linear());
+  submission.scans.resize(2);
+  submission.scans[0].scan = 1;
+  submission.scans[1].scan = 2;
+  submission.scans[1].answered = 0.5;
+  submission.scans[1].position = submission.position;
+  submission.scans[1].orientation = submission.orientation;
+  const Result result = score(posed, makeReply(submission, std::nullopt));
+  ASSERT_EQ(result.scans.size(), 2u);
+  EXPECT_FALSE(result.scans[0].error.has_value());
+  EXPECT_EQ(result.scans[1].error, result.error);
+}
+
+TEST(Submission, IsRefusedForScansThatCannotBeStored) {
+  Submission submission;
+  submission.scans.resize(2);
+  submission.scans[0].scan = submission.scans[1].scan = 1;
+  EXPECT_NE(checkSubmission(submission)->message.find("scans[1]"), std::string::npos);
+  submission.scans[1].scan = 2;
+  EXPECT_FALSE(checkSubmission(submission).has_value());
+  submission.scans[1].position = Eigen::Vector3d(kNaN, 0.0, 0.0);
+  submission.scans[1].orientation = Eigen::Quaterniond::Identity();
+  EXPECT_EQ(checkSubmission(submission)->kind, Defect::Kind::kNotFinite);
+}
+
 }  // namespace
 }  // namespace pcrb

@@ -91,5 +91,22 @@ total        all         3        2       0          1         0        0      1
   EXPECT_EQ(text, expected);
 }
 
+TEST(Summary, SaysWhatTheRepliesOfALocalizationNodeAreWorth) {
+  Result better = makeResult("eth", "plain", Kind::kLocal, Outcome::kReplied, 0.1);
+  better.initial_misalignment = 0.5;
+  better.scans_used = 3;
+  Result worse = better;
+  worse.error = 0.75;
+  worse.reason = std::string(kNotSettled) + " after 40 scans: the last answer";
+  Result silent = makeResult("eth", "plain", Kind::kLocal, Outcome::kTimedOut, 0.5);
+  EXPECT_EQ(describeScans({better, worse, silent}),
+            "\ndo nothing: median 0.5000; worse than that: 1 of 2 replies; not settled: 1 of 2 "
+            "replies\n");
+  EXPECT_NE(describeScans({worse}).find("warning: the replies are worse than doing nothing"),
+            std::string::npos);
+  better.scans_used.reset();
+  EXPECT_EQ(describeScans({better, silent}), "");
+}
+
 }  // namespace
 }  // namespace pcrb

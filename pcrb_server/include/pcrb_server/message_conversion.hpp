@@ -69,6 +69,12 @@ void writePoints(const PointCloud& cloud, const Transform& T, std::uint32_t poin
 ///                         big-endian, or its sizes do not fit its data.
 PointCloud fromMessage(const sensor_msgs::PointCloud2& message);
 
+/// With intensity, 0 where it is unknown: some localization nodes warn or fail without the field.
+inline PointCloud withIntensity(PointCloud cloud) {
+  cloud.intensity.resize(cloud.points.size(), 0.0f);
+  return cloud;
+}
+
 geometry_msgs::Pose toMessage(const Transform& T);
 
 /// For tf: T_frame_child, `frame` being the header's.

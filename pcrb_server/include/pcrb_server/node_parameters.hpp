@@ -67,6 +67,10 @@ class NodeParameters {
   /// mistake. Call it before the first read.
   void addGroup(const std::string& group) { group_ = group; }
 
+  /// Takes what is below ~group for the default of each parameter that has one there. Call it
+  /// before the first read.
+  void addDefaults(const std::string& group) { defaults_ = group; }
+
   /// Runs a check that throws pcrb::Error on a mistake, and keeps its message.
   void check(const std::function<void()>& statement);
 
@@ -95,6 +99,7 @@ class NodeParameters {
   ros::NodeHandle node_;
   std::set<std::string> asked_;
   std::string group_;                            ///< empty: none
+  std::string defaults_;                         ///< empty: none
   std::map<std::string, std::string> given_as_;  ///< former name, for those given under it
   std::vector<std::string> mistakes_;
 };

@@ -19,9 +19,10 @@ const ParameterTable kBridgeParameters{
     {"pose_topic", "/pose", "",
      "topic of the node's answers, PoseStamped, PoseWithCovarianceStamped, TransformStamped "
      "(geometry_msgs) or Odometry (nav_msgs); tf: transforms map -> base or map -> odom"},
-    {"imu_topic", "", "", "topic of an IMU that feels gravity alone; empty: not sent"},
+    {"imu_topic", "", "",
+     "topic of an IMU: gravity, and the acceleration of speed; empty: not sent"},
     {"imu_rate", "100", "Hz", "rate of the IMU"},
-    {"odometry_topic", "", "", "topic of odometry that stands still; empty: not sent"},
+    {"odometry_topic", "", "", "topic of odometry; empty: not sent"},
     {"odometry_rate", "50", "Hz", "rate of the odometry"},
     {"", "", "", "Frames and links of tf"},
     {"map_frame", "map", "", "frame of the map"},
@@ -46,6 +47,10 @@ const ParameterTable kBridgeParameters{
      "PCD file to which each map is written, of this run alone; $NAME and ${NAME:-other} are "
      "variables of the environment"},
     {"before_problem", "", "", "service (Empty or Trigger) that is called before each problem"},
+    {"after_first_scan", "", "",
+     "service (Empty or Trigger) that is called in each problem when its first scan was answered, "
+     "or first_scan_settle is over: for nodes that locate the last scan that they have"},
+    {"first_scan_settle", "0.5", "s", "time from the first scan to after_first_scan"},
     {"send_initialpose", "true", "", "initial guess of the problem, sent as initial pose"},
     {"initialpose_settle", "0.1", "s", "pause after the initial pose"},
     {"initialpose_covariance", "3dof", "3dof|6dof", "degrees of freedom with a covariance"},
@@ -53,6 +58,12 @@ const ParameterTable kBridgeParameters{
     {"initialpose_rotation", "0.26", "rad", "standard deviation of the initial orientation"},
     {"", "", "", "Scans and answers"},
     {"scan_period", "0.1", "s", "shortest time between two scans of a problem"},
+    {"pace", "answers", "answers|rate",
+     "the next scan of a problem comes when the one before was answered or is late, or every "
+     "scan_period, as a sensor's: what the node misses counts as unanswered"},
+    {"speed", "0", "m/s",
+     "speed at which the robot moves straight on while it has a problem: scans, odometry, IMU and "
+     "tf follow, for nodes that take the correction of the initial pose for motion"},
     {"scan_stamps", "even", "even|now",
      "stamps of scans, a scan_period apart or the times at which they are sent"},
     {"answer_limit", "1", "s",
@@ -73,6 +84,9 @@ const ParameterTable kBridgeParameters{
      "difference from the initial pose below which a first answer does not count"},
     {"deadline_fraction", "0.9", "",
      "part of the time limit after which the last answer is submitted"},
+    {"store_scans", "true", "",
+     "answers to all scans, stored for the report: the error over scans, and what each rule of "
+     "settle makes of them"},
     {"", "", "", "The node under test"},
     {"restart", "never", "never|target|problem",
      "restart of the node before a new target, before each problem"},
@@ -130,6 +144,9 @@ void readFrames(NodeParameters& reader, BridgeParameters& parameters) {
   parameters.tf_odom_base = readLink(reader, "tf_odom_base");
   parameters.tf_base_scan = readLink(reader, "tf_base_scan");
   if (parameters.scan_frame == parameters.base_frame) parameters.tf_base_scan = TfLink::kNone;
+  parameters.speed = reader.number("speed", 0.0, 10.0);
+  const bool is_fixed = parameters.tf_odom_base == TfLink::kStatic;
+  if (parameters.speed > 0.0 && is_fixed) parameters.tf_odom_base = TfLink::kDynamic;
   const std::string optical = reader.choice("optical");
   parameters.optical = optical == "auto"  ? BridgeParameters::Optical::kAuto
                        : optical == "yes" ? BridgeParameters::Optical::kYes
@@ -153,6 +170,8 @@ void readAnswers(NodeParameters& reader, BridgeParameters& parameters) {
   parameters.scans.period = reader.number("scan_period", 0.01, kLongTime);
   parameters.scans.answer_limit = reader.number("answer_limit", parameters.scans.period, kLongTime);
   parameters.scans.max_scans = reader.integer("max_scans", 1, 100000);
+  parameters.stores_scans = reader.boolean("store_scans");
+  parameters.scans.keeps_rate = reader.choice("pace") == "rate";
   parameters.scans.match_by_stamp = reader.choice("match") == "stamp";
   parameters.has_even_stamps = reader.choice("scan_stamps") == "even";
   parameters.answer_delay = reader.number("answer_delay", -kLongTime, kLongTime);
@@ -189,6 +208,8 @@ void readStart(NodeParameters& reader, BridgeParameters& parameters) {
   parameters.initialpose_rotation = reader.number("initialpose_rotation", 0.0, 10.0);
   parameters.has_6dof_covariance = reader.choice("initialpose_covariance") == "6dof";
   parameters.before_problem = reader.string("before_problem");
+  parameters.after_first_scan = reader.string("after_first_scan");
+  parameters.first_scan_settle = reader.number("first_scan_settle", 0.0, kLongTime);
 }
 
 void readRestart(NodeParameters& reader, BridgeParameters& parameters) {
@@ -208,6 +229,8 @@ void readRestart(NodeParameters& reader, BridgeParameters& parameters) {
 BridgeParameters readBridgeParameters() {
   NodeParameters reader(kBridgeParameters);
   reader.addGroup("bridge_parameters");
+  reader.addDefaults("recipe/bridge");
+  reader.allowOwnParameter("recipe");  // what else a recipe says is for people
   BridgeParameters parameters;
   readTopics(reader, parameters);
   readFrames(reader, parameters);

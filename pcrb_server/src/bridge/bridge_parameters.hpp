@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "bridge/convergence_monitor.hpp"
 #include "bridge/scan_schedule.hpp"
+#include "pcrb_core/run/convergence_monitor.hpp"
 #include "pcrb_server/parameter_table.hpp"
 
 namespace pcrb {
@@ -31,9 +31,12 @@ struct BridgeParameters {
   TfLink tf_base_scan = TfLink::kStatic;
   enum class Optical { kAuto, kYes, kNo } optical = Optical::kAuto;
 
+  double speed = 0.0;  ///< m/s, of the robot while it has a problem
+
   AcceptanceRule settle;
   ScanPolicy scans;  ///< the deadline is set for each problem
   double deadline_fraction = 0.9;
+  bool stores_scans = true;
   double finish_limit = 30.0;  ///< s that a node gets to finish its scans after the decision
   bool has_even_stamps = true;
   double answer_delay = 0.0;  ///< s, by which the stamps of answers are later than their scans'
@@ -46,7 +49,9 @@ struct BridgeParameters {
   double initialpose_translation = 0.5;  ///< m, standard deviation
   double initialpose_rotation = 0.26;    ///< rad, standard deviation
   bool has_6dof_covariance = false;
-  std::string before_problem;  ///< service, empty: none
+  std::string before_problem;      ///< service, empty: none
+  std::string after_first_scan;    ///< service, empty: none
+  double first_scan_settle = 0.5;  ///< s from the first scan to that call, if no answer comes
 
   enum class Restart { kNever, kTarget, kProblem } restart = Restart::kNever;
   std::string restart_service;

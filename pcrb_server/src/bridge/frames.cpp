@@ -35,39 +35,50 @@ Transform uprightFromOptical(const std::optional<Transform>& T_map_optical) {
 std::array<TfLinks::Link, 3> TfLinks::all() const {
   const auto& p = parameters_;
   return {{{p.tf_map_odom, "tf_map_odom", p.map_frame, p.odom_frame},
-           {p.tf_odom_base, "tf_odom_base", p.odom_frame, p.base_frame},
+           {p.tf_odom_base, "tf_odom_base", p.odom_frame, p.base_frame, true},
            {p.tf_base_scan, "tf_base_scan", p.base_frame, p.scan_frame}}};
 }
 
-std::vector<geometry_msgs::TransformStamped> TfLinks::links(TfLink kind,
-                                                            const ros::Time& stamp) const {
+std::vector<geometry_msgs::TransformStamped> TfLinks::links(TfLink kind, const ros::Time& stamp,
+                                                            const Transform& T_odom_base) const {
   std::vector<geometry_msgs::TransformStamped> links;
   for (const Link& link : all()) {
     if (link.kind != kind) continue;
-    links.push_back(toMessage(Transform::Identity(), makeHeader(link.parent, stamp), link.child));
+    links.push_back(toMessage(link.is_moving ? T_odom_base : Transform::Identity(),
+                              makeHeader(link.parent, stamp), link.child));
   }
   return links;
 }
 
 void TfLinks::sendStatic(const ros::Time& stamp) {
-  const auto links = this->links(TfLink::kStatic, stamp);
+  const auto links = this->links(TfLink::kStatic, stamp, Transform::Identity());
   if (!links.empty()) static_.sendTransform(links);
 }
 
-void TfLinks::sendDynamic(const ros::Time& stamp) {
-  const auto links = this->links(TfLink::kDynamic, stamp);
+void TfLinks::sendDynamic(const ros::Time& stamp, const Transform& T_odom_base) {
+  const auto links = this->links(TfLink::kDynamic, stamp, T_odom_base);
   if (!links.empty()) dynamic_.sendTransform(links);
 }
 
-std::map<std::string, std::string> TfLinks::ownedChildren() const {
-  std::map<std::string, std::string> children;
+std::map<std::string, OwnedFrame> TfLinks::ownedChildren() const {
+  std::map<std::string, OwnedFrame> children;
   for (const Link& link : all()) {
-    if (link.kind != TfLink::kNone) children.emplace(link.child, link.parameter);
+    if (link.kind == TfLink::kNone) continue;
+    children.emplace(link.child,
+                     OwnedFrame{link.parameter, link.parent, link.child == parameters_.scan_frame});
   }
   return children;
 }
 
-TfWatch::TfWatch(ros::NodeHandle& node, std::map<std::string, std::string> owned, Listener listener)
+std::string adviceOn(const OwnedFrame& owned, const std::string& frame, const std::string& parent) {
+  if (owned.is_scan && parent != owned.parent) {
+    return "if it localizes the sensor itself, set ~base_frame:=" + frame +
+           " and ~tf_odom_base:=none";
+  }
+  return "or set ~" + owned.parameter + ":=none if the localizer publishes " + frame + " itself";
+}
+
+TfWatch::TfWatch(ros::NodeHandle& node, std::map<std::string, OwnedFrame> owned, Listener listener)
     : owned_(std::move(owned)), listener_(std::move(listener)), buffer_(ros::Duration(kTfMemory)) {
   using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
   const auto no_delay = ros::TransportHints().tcpNoDelay();
@@ -88,8 +99,9 @@ void TfWatch::take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bo
     const std::string child = withoutSlash(transform.child_frame_id);
     const auto owned = owned_.find(child);
     if (!is_own && owned != owned_.end() && conflict_.empty()) {
-      conflict_ = publisher + " publishes the tf frame " + child + "; or set ~" + owned->second +
-                  ":=none if the localizer publishes " + child + " itself";
+      const std::string parent = withoutSlash(transform.header.frame_id);
+      conflict_ = publisher + " publishes the tf frame " + child + " (in " + parent + "); " +
+                  adviceOn(owned->second, child, parent);
     }
     try {
       buffer_.setTransform(transform, publisher, is_static);

@@ -43,7 +43,19 @@ inline Transform sensorPose(const Transform& T_map_body, const Transform& T_body
 /// @param T_map_optical  the initial guess; without one the roll stays as it is.
 Transform uprightFromOptical(const std::optional<Transform>& T_map_optical);
 
-/// The tf links map → odom → base → scan that the bridge publishes; all are the identity.
+/// A frame whose parent the bridge publishes on tf.
+struct OwnedFrame {
+  std::string parameter;  ///< that decides it
+  std::string parent;
+  bool is_scan = false;
+};
+
+/// What to do about another node that publishes such a frame: it localizes the sensor itself, or
+/// publishes the link as it should, or should not be there.
+std::string adviceOn(const OwnedFrame& owned, const std::string& frame, const std::string& parent);
+
+/// The tf links map → odom → base → scan that the bridge publishes; all are the identity, but for
+/// odom → base of a robot that moves.
 class TfLinks {
  public:
   explicit TfLinks(const BridgeParameters& parameters) : parameters_(parameters) {}
@@ -51,11 +63,10 @@ class TfLinks {
   void sendStatic(const ros::Time& stamp);
 
   /// Publishes the dynamic links with a scan's stamp.
-  void sendDynamic(const ros::Time& stamp);
+  void sendDynamic(const ros::Time& stamp, const Transform& T_odom_base);
 
-  /// Frames whose parent the bridge publishes: no other node may. Each with the parameter that
-  /// decides it.
-  std::map<std::string, std::string> ownedChildren() const;
+  /// Frames whose parent the bridge publishes: no other node may.
+  std::map<std::string, OwnedFrame> ownedChildren() const;
 
  private:
   struct Link {
@@ -63,10 +74,12 @@ class TfLinks {
     const char* parameter;
     const std::string& parent;
     const std::string& child;
+    bool is_moving = false;
   };
 
   std::array<Link, 3> all() const;
-  std::vector<geometry_msgs::TransformStamped> links(TfLink kind, const ros::Time& stamp) const;
+  std::vector<geometry_msgs::TransformStamped> links(TfLink kind, const ros::Time& stamp,
+                                                     const Transform& T_odom_base) const;
 
   const BridgeParameters& parameters_;
   tf2_ros::TransformBroadcaster dynamic_;
@@ -79,9 +92,8 @@ class TfWatch {
   /// Called for every transform of /tf that another node publishes.
   using Listener = std::function<void(const geometry_msgs::TransformStamped&)>;
 
-  /// @param owned  child frames whose publisher is this node alone, each with the parameter that
-  ///               leaves it to others.
-  TfWatch(ros::NodeHandle& node, std::map<std::string, std::string> owned, Listener listener);
+  /// @param owned  child frames whose publisher is this node alone.
+  TfWatch(ros::NodeHandle& node, std::map<std::string, OwnedFrame> owned, Listener listener);
 
   /// T_target_frame at a time (0: the newest), or nothing where tf does not connect the two.
   std::optional<Transform> find(const std::string& target, const std::string& frame,
@@ -94,7 +106,7 @@ class TfWatch {
  private:
   void take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static);
 
-  std::map<std::string, std::string> owned_;
+  std::map<std::string, OwnedFrame> owned_;
   Listener listener_;
   std::string conflict_;
   tf2::BufferCore buffer_;

@@ -11,6 +11,7 @@
 #include "pcrb_core/run/result.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/topics.hpp"
+#include "ros/node_calls.hpp"
 
 namespace pcrb {
 
@@ -131,6 +132,7 @@ LocalizationBridge::Step LocalizationBridge::play() {
       response_time_);
   while (isCurrent() && !shutdown_.requested()) {
     const Action action = scans.step();
+    callAfterFirstScan();
     if (action == Action::kSubmit || action == Action::kGiveUp) {
       submit(scans.decision());
       break;
@@ -146,6 +148,7 @@ LocalizationBridge::Step LocalizationBridge::play() {
     ros::getGlobalCallbackQueue()->callAvailable(
         ros::WallDuration(std::min(scans.timeToNext(), kPollPeriod)));
   }
+  inputs_.stop();
   monitor_.endProblem(scans.isAnswered());
   return Step::kDrain;
 }
@@ -222,7 +225,34 @@ void LocalizationBridge::printDiagnosis() const {
   }
 }
 
+/// Some nodes locate the last scan that they have, on request: that is of this problem only now.
+void LocalizationBridge::callAfterFirstScan() {
+  const ScanPublisher& scans = *served_->scans;
+  if (served_->was_called || parameters_.after_first_scan.empty()) return;
+  const bool is_processed =
+      scans.isAnswered() ||
+      (scans.scansSent() > 0 && scans.elapsed() >= parameters_.first_scan_settle);
+  if (!is_processed) return;
+  served_->was_called = true;
+  if (callEmptyOrTrigger(node_, parameters_.after_first_scan)) return;
+  std::cout << "the service " << parameters_.after_first_scan << " (~after_first_scan) failed"
+            << std::endl;
+}
+
+/// Whatever is wrong from the start is refused before a problem counts: a run without a result may
+/// go on with other parameters.
+void LocalizationBridge::refuseWrongSetup(const Request& request) {
+  if (was_answered_) return;
+  pause(kPollPeriod);  // for transforms that are on their way beside the answer
+  refuseConflicts();
+  was_answered_ = served_->scans->isAnswered();
+  const bool is_mute = request.status == Request::TIMED_OUT && answers_ && !answers_->isPublished();
+  if (!is_mute || was_answered_) return;
+  throw Error(causeOfNoAnswer(-1.0).text + ": set ~pose_topic");
+}
+
 void LocalizationBridge::submit(Request request) {
+  refuseWrongSetup(request);
   request.problem_id = served_->message->problem_id;
   request.pose.header = served_->message->header;
   const auto usage = monitor_.usage();

@@ -52,6 +52,7 @@ class LocalizationBridge {
     SensorMounting mounting;
     std::optional<Transform> guess;      ///< T_map_source
     std::optional<ScanPublisher> scans;  ///< from kPlay on
+    bool was_called = false;             ///< the service ~after_first_scan
   };
 
   /// What the node that is there has had; another node has had nothing.
@@ -82,9 +83,11 @@ class LocalizationBridge {
   void settleMap();
   bool findMounting();
   bool callBeforeProblem();
+  void callAfterFirstScan();
   std::optional<Transform> initialPose() const;
   void sendInitialPose();
   bool isOptical() const;
+  void refuseWrongSetup(const pcrb_msgs::SubmitPose::Request& request);
   void submit(pcrb_msgs::SubmitPose::Request request);
   NoAnswerCause causeOfNoAnswer(double cpu_time) const;
   void printDiagnosis() const;
@@ -106,6 +109,7 @@ class LocalizationBridge {
   std::optional<ros::Time> published_map_;  ///< stamp of the target that was sent as map
   NodeHistory history_;
   ResponseTime response_time_;  ///< of the node, from the problems so far
+  bool was_answered_ = false;   ///< whether a problem had an answer
   FailureLog failures_;
   MisalignmentCheck misalignment_;
 };

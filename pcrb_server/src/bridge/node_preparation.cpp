@@ -132,6 +132,7 @@ void LocalizationBridge::sendInitialPose() {
     waitFor([this] { return inputs_.isInitialPoseTaken() || !isCurrent(); }, kInitialPoseLimit);
     history().was_waited_for_subscription = true;
   }
+  pause(inputs_.timeToStop());
   inputs_.sendInitialPose(*pose);
   pause(parameters_.initialpose_settle);
 }

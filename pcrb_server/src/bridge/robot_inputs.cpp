@@ -4,6 +4,7 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "pcrb_core/error.hpp"
@@ -17,12 +18,6 @@ namespace {
 constexpr double kGravity = 9.80665;  // m/s²
 constexpr std::uint32_t kMotionQueue = 100;
 const ros::Duration kLongestGap(1.0);  // of odometry and IMU that is made up for
-
-/// With intensity, 0 where it is unknown: some nodes warn or fail without the field.
-PointCloud withIntensity(PointCloud cloud) {
-  cloud.intensity.resize(cloud.points.size(), 0.0f);
-  return cloud;
-}
 
 /// A node that reads another run's map localizes well, in the wrong place.
 void requireMapFileAlone(const std::string& path, std::optional<FileLock>& lock) {
@@ -55,8 +50,11 @@ ros::Publisher advertise(ros::NodeHandle& node, const std::string& topic, Subscr
                                  is_latched);
 }
 
-nav_msgs::Odometry standstill(const BridgeParameters& parameters) {
+nav_msgs::Odometry odometryOf(const StraightMotion::State& state,
+                              const BridgeParameters& parameters) {
   nav_msgs::Odometry odometry;
+  odometry.pose.pose.position.x = state.position;
+  odometry.twist.twist.linear.x = state.velocity;
   odometry.header.frame_id = parameters.odom_frame;
   odometry.child_frame_id = parameters.base_frame;
   odometry.pose.pose.orientation.w = 1.0;
@@ -67,8 +65,9 @@ nav_msgs::Odometry standstill(const BridgeParameters& parameters) {
   return odometry;
 }
 
-sensor_msgs::Imu gravityOnly(const BridgeParameters& parameters) {
+sensor_msgs::Imu imuOf(const StraightMotion::State& state, const BridgeParameters& parameters) {
   sensor_msgs::Imu imu;
+  imu.linear_acceleration.x = state.acceleration;
   imu.header.frame_id = parameters.base_frame;
   imu.orientation.w = 1.0;
   imu.orientation_covariance[0] = -1.0;  // orientation is not measured
@@ -137,8 +136,8 @@ void RobotInputs::sendInitialPose(const Transform& T_map_body) {
   message.pose.pose = toMessage(T_map_body);
   const double position = parameters_.initialpose_translation;
   const double angle = parameters_.initialpose_rotation;
-  for (const std::size_t i : {0U, 1U}) message.pose.covariance[7 * i] = position * position;
-  message.pose.covariance[35] = angle * angle;
+  const auto covariance = planarCovariance(position, angle);
+  std::copy(covariance.begin(), covariance.end(), message.pose.covariance.begin());
   if (parameters_.has_6dof_covariance) {
     message.pose.covariance[14] = position * position;
     for (const std::size_t i : {3U, 4U}) message.pose.covariance[7 * i] = angle * angle;
@@ -146,29 +145,51 @@ void RobotInputs::sendInitialPose(const Transform& T_map_body) {
   initial_pose_.publish(message);
 }
 
-void RobotInputs::setScan(const PointCloud& cloud, const Transform& T) {
-  scan_message_ =
-      toMessage(withIntensity(cloud), T, makeHeader(parameters_.scan_frame, ros::Time()));
+void RobotInputs::setScan(const PointCloud& cloud, const SensorMounting& mounting) {
+  scan_cloud_ = withIntensity(cloud);
+  scan_mounting_ = mounting;
 }
 
-std::int64_t RobotInputs::sendScan(bool is_first_of_problem) {
+Transform RobotInputs::odometryAt(const ros::Time& stamp) const {
+  return Transform(Eigen::Translation3d(motion_.at(stamp.toSec()).position, 0.0, 0.0));
+}
+
+void RobotInputs::stop() {
+  const ros::Time time = now();
+  sendMotion(time);  // what is sent for a time before the change must be of the motion before it
+  motion_.changeTo(0.0, time.toSec());
+}
+
+double RobotInputs::timeToStop() { return motion_.timeToSpeed(now().toSec()); }
+
+RobotInputs::SentScan RobotInputs::sendScan(bool is_first_of_problem) {
   const std::int64_t time = toNanoseconds(ros::Time::now());
   const std::int64_t stamp = is_first_of_problem
                                  ? clock_.now(time)
                                  : clock_.next(time, toNanoseconds(parameters_.scans.period));
-  links_.sendDynamic(toTime(stamp));
-  sendMotion(toTime(stamp));
-  scan_message_.header.stamp = toTime(stamp);
-  scan_.publish(scan_message_);
-  return stamp;
+  const ros::Time time_of_scan = toTime(stamp);
+  if (is_first_of_problem) {
+    T_odom_first_ = odometryAt(time_of_scan);
+    motion_.changeTo(parameters_.speed, time_of_scan.toSec());
+  }
+  const Transform T_odom_base = odometryAt(time_of_scan);
+  links_.sendDynamic(time_of_scan, T_odom_base);
+  sendMotion(time_of_scan);
+  SentScan sent{stamp, T_odom_first_.inverse() * T_odom_base};
+  const Transform& E = scan_mounting_.T_base_scan;
+  const Transform T_now_first = E.inverse() * sent.T_first_base.inverse() * E;  // of the sensor
+  scan_.publish(toMessage(scan_cloud_, T_now_first * scan_mounting_.T_scan_source,
+                          makeHeader(parameters_.scan_frame, time_of_scan)));
+  return sent;
 }
 
-template <typename Message>
-void RobotInputs::send(Stream& stream, Message message, const ros::Time& until) {
+template <typename Make>
+void RobotInputs::send(Stream& stream, const Make& make, const ros::Time& until) {
   if (!stream.publisher) return;
   if (stream.last + kLongestGap < until) stream.last = until - stream.period;
   while (stream.last + stream.period <= until) {
     stream.last += stream.period;
+    auto message = make(motion_.at(stream.last.toSec()), parameters_);
     message.header.stamp = stream.last;
     stream.publisher.publish(message);
   }
@@ -177,8 +198,8 @@ void RobotInputs::send(Stream& stream, Message message, const ros::Time& until) 
 void RobotInputs::sendMotion() { sendMotion(now()); }
 
 void RobotInputs::sendMotion(const ros::Time& until) {
-  send(imu_, gravityOnly(parameters_), until);
-  send(odometry_, standstill(parameters_), until);
+  send(imu_, imuOf, until);
+  send(odometry_, odometryOf, until);
 }
 
 }  // namespace pcrb

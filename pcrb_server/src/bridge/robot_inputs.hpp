@@ -15,6 +15,7 @@
 
 #include "bridge/bridge_parameters.hpp"
 #include "bridge/frames.hpp"
+#include "bridge/straight_motion.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/transform.hpp"
@@ -55,9 +56,18 @@ class StampClock {
   std::int64_t last_ = 0;
 };
 
+/// How the benchmark's source becomes the scan of a robot's sensor.
+struct SensorMounting {
+  Transform T_scan_source = Transform::Identity();  ///< turns the source into the scan that is sent
+  Transform T_base_scan = Transform::Identity();    ///< how the sensor is mounted
+
+  Transform T_base_source() const { return T_base_scan * T_scan_source; }
+};
+
 /// What a localization node gets from the bridge, as it would from a robot: map, scan, initial
-/// pose, links of tf, and, if asked for, odometry that stands still and an IMU that feels gravity
-/// alone. The last two are constants in the body's frame: they say nothing about the problem.
+/// pose, links of tf, and, if asked for, odometry and an IMU. These tell of a robot that stands
+/// still, or of the same straight motion in every problem: they say nothing about the problem.
+/// Stamps, odometry and tf are continuous over all problems.
 class RobotInputs {
  public:
   /// @throws Error  if another bridge writes its maps to ~map_file.
@@ -66,8 +76,8 @@ class RobotInputs {
   /// Publishes the static links of tf.
   void sendStaticLinks();
 
-  /// Frames whose parent this publishes, each with the parameter that decides it.
-  std::map<std::string, std::string> ownedFrames() const { return links_.ownedChildren(); }
+  /// Frames whose parent this publishes.
+  std::map<std::string, OwnedFrame> ownedFrames() const { return links_.ownedChildren(); }
 
   /// Publishes the map, latched, and writes it to ~map_file if there is one.
   /// @throws InvalidFile  if the file cannot be written.
@@ -75,12 +85,23 @@ class RobotInputs {
 
   void sendInitialPose(const Transform& T_map_body);
 
-  /// The scan that sendScan() sends from now on: T · cloud.
-  void setScan(const PointCloud& cloud, const Transform& T);
+  /// The scan that sendScan() sends from now on: of a cloud by a sensor that is mounted like that.
+  void setScan(const PointCloud& cloud, const SensorMounting& mounting);
+
+  /// A scan that was sent.
+  struct SentScan {
+    std::int64_t stamp = 0;                          ///< ns
+    Transform T_first_base = Transform::Identity();  ///< the body's way since the first one
+  };
 
   /// Publishes the dynamic links of tf, odometry, IMU and the scan, all up to one stamp.
-  /// @return  the stamp, ns.
-  std::int64_t sendScan(bool is_first_of_problem);
+  SentScan sendScan(bool is_first_of_problem);
+
+  /// The robot brakes.
+  void stop();
+
+  /// s until it stands still.
+  double timeToStop();
 
   /// Publishes odometry and IMU at their rates up to now, from the time of the call before; stamps
   /// too far back are left out.
@@ -108,8 +129,10 @@ class RobotInputs {
     ros::Time last;
   };
 
-  template <typename Message>
-  void send(Stream& stream, Message message, const ros::Time& until);
+  template <typename Make>
+  void send(Stream& stream, const Make& make, const ros::Time& until);
+
+  Transform odometryAt(const ros::Time& stamp) const;
 
   void sendMotion(const ros::Time& until);
   ros::Time now() { return toTime(clock_.now(toNanoseconds(ros::Time::now()))); }
@@ -121,7 +144,10 @@ class RobotInputs {
   SubscriberNames map_listeners_;
   SubscriberNames scan_listeners_;
   SubscriberNames initial_pose_listeners_;
-  sensor_msgs::PointCloud2 scan_message_;
+  StraightMotion motion_;
+  PointCloud scan_cloud_;
+  SensorMounting scan_mounting_;
+  Transform T_odom_first_ = Transform::Identity();  ///< of the body at the problem's first scan
   ros::Publisher map_;
   ros::Publisher scan_;
   ros::Publisher initial_pose_;

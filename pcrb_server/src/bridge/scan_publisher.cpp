@@ -32,15 +32,16 @@ ScanPublisher::ScanPublisher(const BridgeParameters& parameters, RobotInputs& in
       mounting_(problem.mounting),
       schedule_(policyOf(parameters, problem.time_limit), parameters.settle, problem.initial_pose,
                 steadyNow(), known) {
-  inputs_.setScan(problem.source, mounting_.T_scan_source);
+  inputs_.setScan(problem.source, mounting_);
 }
 
 ScanSchedule::Action ScanPublisher::step() {
   takeWaiting();
   const auto action = schedule_.next(steadyNow());
   if (action == ScanSchedule::Action::kSendScan) {
-    const std::int64_t stamp = inputs_.sendScan(schedule_.scansSent() == 0);
-    schedule_.scanSent(steadyNow(), stamp);
+    const RobotInputs::SentScan scan = inputs_.sendScan(schedule_.scansSent() == 0);
+    ways_.push_back(scan.T_first_base);
+    schedule_.scanSent(steadyNow(), scan.stamp);
   }
   return action;
 }
@@ -81,12 +82,15 @@ bool ScanPublisher::use(const PublishedPose& pose) {
     return false;
   }
   const Transform T_map_frame = *T_map_parent * pose.T_parent_frame;
+  // The answer is where the body is now, the problem asks where it was at the first scan.
+  const Transform T_frame_first =
+      *T_frame_base * ways_[static_cast<std::size_t>(scan - 1)].inverse();
   std::optional<PoseCovariance> covariance;
   if (pose.covariance) {
     covariance = mountedCovariance(rotatedCovariance(*pose.covariance, T_map_parent->linear()),
-                                   T_map_frame, *T_frame_base);
+                                   T_map_frame, T_frame_first);
   }
-  schedule_.answerReceived(steadyNow(), stamp, T_map_frame * *T_frame_base, covariance);
+  schedule_.answerReceived(steadyNow(), stamp, T_map_frame * T_frame_first, covariance);
   return true;
 }
 
@@ -126,10 +130,26 @@ bool ScanPublisher::isAnswered() const {
   return schedule_.convergence().latest() || schedule_.convergence().hasEchoed();
 }
 
+std::vector<pcrb_msgs::ScanReply> ScanPublisher::scanReplies() const {
+  std::vector<pcrb_msgs::ScanReply> replies;
+  for (const auto& scan : schedule_.scans()) {
+    pcrb_msgs::ScanReply& reply = replies.emplace_back();
+    reply.scan = static_cast<std::uint32_t>(replies.size());
+    reply.sent = scan.sent - start_;
+    reply.answered = std::nan("");
+    if (scan.answered <= 0.0) continue;
+    reply.answered = scan.answered - start_;
+    reply.is_echo = scan.is_echo ? 1 : 0;
+    reply.pose = toMessage(sensorPose(scan.T_map_body, mounting_.T_base_source()));
+  }
+  return replies;
+}
+
 Request ScanPublisher::decision() const {
   Request request;
   request.solver_time = std::nan("");
   request.reason = schedule_.reason(steadyNow());
+  if (parameters_.stores_scans) request.scans = scanReplies();
   const auto& answer = schedule_.convergence().latest();
   if (!answer) {
     request.status = Request::TIMED_OUT;

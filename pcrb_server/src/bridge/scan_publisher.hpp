@@ -14,14 +14,6 @@
 
 namespace pcrb {
 
-/// How the benchmark's source becomes the scan of a robot's sensor.
-struct SensorMounting {
-  Transform T_scan_source = Transform::Identity();  ///< turns the source into the scan that is sent
-  Transform T_base_scan = Transform::Identity();    ///< how the sensor is mounted
-
-  Transform T_base_source() const { return T_base_scan * T_scan_source; }
-};
-
 /// One problem as it is put to a localization node.
 struct LocalizationProblem {
   double time_limit = 0.0;  ///< s
@@ -83,6 +75,7 @@ class ScanPublisher {
     double until;  ///< s, steady
   };
 
+  std::vector<pcrb_msgs::ScanReply> scanReplies() const;
   bool use(const PublishedPose& pose);
   void noteStamp(std::int64_t stamp);
   std::optional<Transform> mapFrom(const PublishedPose& pose, const ros::Time& time) const;
@@ -93,6 +86,7 @@ class ScanPublisher {
   const TfWatch& tf_;
   SensorMounting mounting_;
   ScanSchedule schedule_;
+  std::vector<Transform> ways_;  ///< of the body from the first scan to each, from 1
   std::deque<Waiting> waiting_;  ///< poses that tf does not connect yet, oldest first
   std::string disconnected_;     ///< frames of the newest pose that tf did not connect
   AnswerDiagnosis faults_;

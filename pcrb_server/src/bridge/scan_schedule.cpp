@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "pcrb_core/run/result.hpp"
+
 namespace pcrb {
 
 namespace {
@@ -48,6 +50,7 @@ double ScanSchedule::lateness() const {
 /// When the scan after the one sent last is due. One that echoes the initial pose may still answer
 /// the same scan, or only the next.
 double ScanSchedule::nextScan() const {
+  if (policy_.keeps_rate) return scans_.back().sent + policy_.period;
   const bool has_only_echoed = convergence_.hasEchoed() && !convergence_.latest();
   double wait = lateness();
   if (has_only_echoed && response_time_.isKnown()) wait = kLateFactor * response_time_.latest();
@@ -69,7 +72,9 @@ double ScanSchedule::timeToNext(double now) const {
 
 void ScanSchedule::scanSent(double now, std::int64_t stamp) {
   is_answered_ = false;
-  scans_.push_back({stamp, now});
+  Scan& scan = scans_.emplace_back();
+  scan.stamp = stamp;
+  scan.sent = now;
 }
 
 int ScanSchedule::scanOf(std::int64_t stamp) const {
@@ -86,11 +91,20 @@ bool ScanSchedule::answerReceived(double now, std::int64_t stamp, const Transfor
   if (scan == 0) return false;
   const bool counts = rule_.kind == AcceptanceRule::Kind::kDeadline || scan <= policy_.max_scans ||
                       !policy_.match_by_stamp;
+  const bool had_answer = convergence_.latest().has_value();
   const bool is_echo_or_old = counts && !convergence_.add({scan, T_map_body, covariance});
+  record(now, scan, T_map_body, is_echo_or_old && !had_answer);
   if (is_echo_or_old) return true;
   is_answered_ = true;
   noteAnswer(now, scan);
   return true;
+}
+
+void ScanSchedule::record(double now, int scan, const Transform& T_map_body, bool is_echo) {
+  Scan& answered = scans_[static_cast<std::size_t>(scan - 1)];
+  answered.answered = now;
+  answered.is_echo = is_echo;
+  answered.T_map_body = T_map_body;
 }
 
 /// Learns from an answer how long the node worked: since it had the scan, and had answered those
@@ -132,7 +146,7 @@ std::string ScanSchedule::reason(double now) const {
                : "the node said nothing to " + scans;
   }
   if (convergence_.isSettled() || rule_.kind == AcceptanceRule::Kind::kDeadline) return "";
-  return "not settled after " + scans +
+  return kNotSettled + (" after " + scans) +
          (now - start_ >= policy_.deadline ? ", at the deadline" : "") + ": the last answer";
 }
 

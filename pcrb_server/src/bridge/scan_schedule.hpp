@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bridge/convergence_monitor.hpp"
+#include "pcrb_core/run/convergence_monitor.hpp"
 
 namespace pcrb {
 
@@ -51,6 +51,7 @@ struct ScanPolicy {
   double answer_limit = 1.0;   ///< least time after which a scan without an answer is late
   int max_scans = 40;          ///< scans whose answers count; not for AcceptanceRule::kDeadline
   double deadline = 9.0;       ///< from start() to the decision
+  bool keeps_rate = false;     ///< a scan comes every period, answered or not
   bool match_by_stamp = true;  ///< else an answer belongs to the scan sent last
   std::int64_t stamp_tolerance = 2000;  ///< ns: some nodes carry stamps in µs, or in a double
 };
@@ -103,6 +104,17 @@ class ScanSchedule {
   /// The stamp of a scan, from 1.
   std::int64_t stampOf(int scan) const { return scanSentAs(scan).stamp; }
 
+  /// A scan of the problem, and its newest answer.
+  struct Scan {
+    std::int64_t stamp;
+    double sent;
+    double answered = 0.0;  ///< 0 = not yet
+    bool is_echo = false;
+    Transform T_map_body = Transform::Identity();
+  };
+
+  const std::vector<Scan>& scans() const { return scans_; }
+
   /// Which scan an answer belongs to, 0 if to none.
   int scanOf(std::int64_t stamp) const;
 
@@ -110,17 +122,13 @@ class ScanSchedule {
   std::string reason(double now) const;
 
  private:
-  struct Scan {
-    std::int64_t stamp;
-    double sent;
-  };
-
   const Scan& scanSentAs(int scan) const { return scans_[static_cast<std::size_t>(scan - 1)]; }
   bool isLastScanOut() const;
   bool isOver(double now) const;
   double nextScan() const;
   double lateness() const;
   void noteAnswer(double now, int scan);
+  void record(double now, int scan, const Transform& T_map_body, bool is_echo);
   int unanswered() const { return scansSent() - newest_answered_; }
 
   ScanPolicy policy_;

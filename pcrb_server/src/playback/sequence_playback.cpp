@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSensorFrame = "pcrb_sensor";
+constexpr double kPositionDeviation = 0.5;  // m, of the initial pose, as localization_bridge's
+constexpr double kAngleDeviation = 0.26;    // rad
 
 /// Absolute, without a slash at the end.
 fs::path pathOf(const SequenceOptions& options) {
@@ -70,6 +72,12 @@ class SequencePlayback : public Playback {
   }
 
   std::size_t size() const override { return names_.size(); }
+
+  double lead() const override {
+    const bool is_first = position_ == 0 || position_ == names_.size();
+    const bool is_for_node = !options_.publish_ground_truth;
+    return is_first && is_for_node ? options_.map_settle + options_.initialpose_settle : 0.0;
+  }
 
   Scene next(const ros::Time& stamp) override {
     if (position_ == names_.size()) position_ = 0;
@@ -146,18 +154,29 @@ class SequencePlayback : public Playback {
     PointCloud origin_only;
     origin_only.local_origin = local_origin_;
     frames_.set(scene, stamp, options_.map_file.empty() ? origin_only : map_);
-    const std_msgs::Header in_map = makeHeader(options_.map_frame, stamp);
-    if (position_ == 0) {
-      scene.initial_pose.emplace();
-      scene.initial_pose->header = in_map;
-      scene.initial_pose->pose.pose = toMessage(sensor);
-      if (!options_.map_file.empty()) {
-        scene.clouds.emplace_back(topics::kMap, toMessage(map_, Transform::Identity(), in_map));
-      }
+    if (!options_.base_frame.empty()) {
+      scene.static_transforms.transforms.push_back(toMessage(
+          Transform::Identity(), makeHeader(options_.base_frame, stamp), options_.scan_frame));
     }
+    if (position_ == 0) showStart(scene, sensor);
     scene.clouds.emplace_back(topics::kScan,
-                              toMessage(makeLocal(read_cloud, local_origin_), sensor.inverse(),
-                                        makeHeader(options_.scan_frame, stamp)));
+                              toMessage(withIntensity(makeLocal(read_cloud, local_origin_)),
+                                        sensor.inverse(), makeHeader(options_.scan_frame, stamp)));
+  }
+
+  /// The map and the initial pose, each before the first scan.
+  void showStart(Scene& scene, const Transform& sensor) const {
+    scene.initial_pose_lead = options_.initialpose_settle;
+    scene.map_lead = options_.map_settle + options_.initialpose_settle;
+    scene.initial_pose.emplace();
+    scene.initial_pose->header = makeHeader(options_.map_frame, scene.dueAt(topics::kInitialPose));
+    scene.initial_pose->pose.pose = toMessage(sensor);
+    const auto covariance = planarCovariance(kPositionDeviation, kAngleDeviation);
+    std::copy(covariance.begin(), covariance.end(), scene.initial_pose->pose.covariance.begin());
+    if (options_.map_file.empty()) return;
+    scene.clouds.emplace_back(topics::kMap,
+                              toMessage(withIntensity(map_), Transform::Identity(),
+                                        makeHeader(options_.map_frame, scene.dueAt(topics::kMap))));
   }
 
   SequenceOptions options_;

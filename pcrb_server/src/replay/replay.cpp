@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <set>
 
 #include "pcrb_core/io/atomic_file.hpp"
 #include "ros/node_calls.hpp"
@@ -14,8 +15,9 @@ constexpr std::uint32_t kSceneQueue = 10;
 
 }  // namespace
 
-void ScenePublisher::publish(const Scene& scene) {
-  forEachMessage(scene, [this](const char* topic, const auto& message, bool is_latched) {
+void ScenePublisher::publish(const Scene& scene, const ros::Time& due) {
+  forEachMessage(scene, [&](const char* topic, const auto& message, bool is_latched) {
+    if (scene.dueAt(topic) != due) return;
     using Message = std::decay_t<decltype(message)>;
     ros::Publisher& publisher = publishers_[topic];
     if (!publisher) publisher = node_.advertise<Message>(topic, kSceneQueue, is_latched);
@@ -99,13 +101,27 @@ void Replay::show() {
   const auto period = std::chrono::duration<double>(1.0 / parameters_.rate);
   due_ = std::max(due_, Clock::now() - std::chrono::duration_cast<Clock::duration>(period)) +
          std::chrono::duration_cast<Clock::duration>(period);
-  last_stamp_ = std::max(ros::Time::now(), last_stamp_ + ros::Duration(0, 1));
+  const double lead = playback_->lead();
+  due_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(lead));
+  const ros::Time now = std::max(ros::Time::now(), last_stamp_ + ros::Duration(0, 1));
+  last_stamp_ = now + ros::Duration(lead);
   const Scene scene = playback_->next(last_stamp_);
-  publisher_.publish(scene);
+  ros::Time reached = now;
+  for (const ros::Time& due : std::set<ros::Time>{scene.dueAt(topics::kMap),
+                                                  scene.dueAt(topics::kInitialPose), scene.stamp}) {
+    waitFor((due - reached).toSec());
+    publisher_.publish(scene, due);
+    reached = due;
+  }
   std::cout << shown_ % playback_->size() + 1 << "/" << playback_->size() << " " << scene.title
             << std::endl;
   ++shown_;
   if (!parameters_.stamps_file.empty()) appendScan(stamps_, scene);
+}
+
+void Replay::waitFor(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return is_over_; });
 }
 
 void Replay::pauseAtEnd() {

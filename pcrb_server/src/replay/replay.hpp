@@ -50,7 +50,8 @@ class ScenePublisher {
  public:
   explicit ScenePublisher(const ros::NodeHandle& node) : node_(node) {}
 
-  void publish(const Scene& scene);
+  /// Publishes the messages that are due at that time.
+  void publish(const Scene& scene, const ros::Time& due);
 
  private:
   ros::NodeHandle node_;
@@ -74,6 +75,7 @@ class Replay {
   void offerServices();
   bool waitForTurn();
   void show();
+  void waitFor(double seconds);
   void pauseAtEnd();
   void writeStamps() const;
 

@@ -31,6 +31,10 @@ const ParameterTable kReplayParameters{
      "the initial pose with the first scan",
      "truth"},
     {"scan_frame", "pcrb_scan", "", "frame of the scan without ground truth"},
+    {"base_frame", "base_link", "",
+     "frame of the robot's body, on tf the parent of the scan without ground truth; empty: none"},
+    {"map_settle", "1", "s", "time from the map to the initial pose"},
+    {"initialpose_settle", "0.1", "s", "time from the initial pose to the first scan"},
     {"stamps_file", "", "",
      "list of which scan was published when, written at the end, for score_poses --scans"},
     {"", "", "", "Of a run"},
@@ -88,6 +92,9 @@ void readSequence(NodeParameters& reader, const std::string& root, const std::st
   sequence.publish_ground_truth = reader.boolean("publish_ground_truth");
   sequence.map_frame = reader.string("map_frame");
   sequence.scan_frame = reader.string("scan_frame");
+  sequence.base_frame = reader.string("base_frame");
+  sequence.map_settle = reader.number("map_settle", 0.0, 1e3);
+  sequence.initialpose_settle = reader.number("initialpose_settle", 0.0, 1e3);
   parameters.stamps_file = reader.path("stamps_file", "");
 }
 

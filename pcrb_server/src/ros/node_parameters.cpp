@@ -103,8 +103,11 @@ std::vector<std::string> NodeParameters::words(const std::string& name) {
 
 bool NodeParameters::find(const std::string& name, XmlRpc::XmlRpcValue& value) {
   asked_.insert(name);
-  const bool is_given = node_.getParam(name, value) || findFormer(name, value);
-  return findInGroup(name, value) || is_given;
+  const bool is_argument = node_.getParam(name, value) || findFormer(name, value);
+  if (findInGroup(name, value)) return true;
+  if (defaults_.empty()) return is_argument;
+  const bool is_default = !is_argument || asWritten(value) == fallbackOf(name);
+  return (is_default && node_.getParam(defaults_ + "/" + name, value)) || is_argument;
 }
 
 bool NodeParameters::findFormer(const std::string& name, XmlRpc::XmlRpcValue& value) {
@@ -240,11 +243,12 @@ void NodeParameters::checkNames() {
   std::vector<std::string> names;
   node_.getParamNames(names);
   const std::string prefix = node_.getNamespace() + "/";
-  const std::string group = group_.empty() ? "" : group_ + "/";
   for (const auto& name : names) {
     if (name.compare(0, prefix.size(), prefix) != 0) continue;
     std::string rest = name.substr(prefix.size());
-    if (!group.empty() && rest.compare(0, group.size(), group) == 0) rest.erase(0, group.size());
+    for (const std::string& group : {group_, defaults_}) {
+      if (!group.empty() && rest.rfind(group + "/", 0) == 0) rest.erase(0, group.size() + 1);
+    }
     const std::string key = rest.substr(0, rest.find('/'));
     if (asked_.insert(key).second) addMistake("~" + key + ": no parameter of this node");
   }

@@ -165,7 +165,7 @@ bool BenchmarkServer::conclude() {
   record_.noteForeignReplies(session_.foreignReplies());
   const auto summaries = record_.summary();
   const bool is_finished = done_ == plan_.problems.size();
-  const std::string table = formatSummary(summaries);
+  const std::string table = formatSummary(summaries) + record_.remarks();
   if (is_finished) record_.writeExports(table);
   const std::size_t skipped =
       parameters_.allow_skipped

@@ -25,6 +25,23 @@ constexpr auto kPatience = std::chrono::milliseconds(500);
 constexpr auto kPeriod = std::chrono::milliseconds(5);
 constexpr int kMaxWaiting = 2;
 
+std::vector<ScanRecord> toScans(const std::vector<pcrb_msgs::ScanReply>& replies) {
+  std::vector<ScanRecord> scans;
+  for (const auto& reply : replies) {
+    ScanRecord& record = scans.emplace_back();
+    record.scan = reply.scan;
+    record.sent = reply.sent;
+    record.is_echo = reply.is_echo != 0;
+    if (std::isnan(reply.answered)) continue;
+    const auto& p = reply.pose.position;
+    const auto& q = reply.pose.orientation;
+    record.answered = reply.answered;
+    record.position = Eigen::Vector3d(p.x, p.y, p.z);
+    record.orientation = Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+  }
+  return scans;
+}
+
 Submission toSubmission(const Request& request) {
   Submission submission;
   submission.status = static_cast<Submission::Status>(request.status);
@@ -40,6 +57,7 @@ Submission toSubmission(const Request& request) {
   submission.scans_used = request.scans_used;
   submission.cpu_time = request.cpu_time;
   submission.peak_memory = request.peak_memory;
+  submission.scans = toScans(request.scans);
   submission.reason = printableText(std::string_view(request.reason).substr(0, kLongestReason));
   return submission;
 }

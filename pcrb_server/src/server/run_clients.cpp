@@ -1,5 +1,6 @@
 #include "server/run_clients.hpp"
 
+#include <ros/init.h>
 #include <ros/names.h>
 #include <ros/param.h>
 #include <ros/this_node.h>
@@ -13,6 +14,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_server/topics.hpp"
 #include "ros/topic_peers.hpp"
 
@@ -23,7 +25,8 @@ namespace {
 using Clock = ProblemSession::Clock;
 
 constexpr auto kClientPollPeriod = std::chrono::milliseconds(20);
-constexpr double kReminderPeriod = 5.0;  // s
+constexpr double kReminderPeriod = 5.0;                      // s
+constexpr auto kProvenanceLimit = std::chrono::seconds(30);  // for node_supervisor to note it
 
 std::string joinNames(const std::set<std::string>& names) {
   std::string text;
@@ -43,6 +46,45 @@ std::string conflictingPublishers() {
   return found;
 }
 
+/// What is not one of the bridge's parameters in a recipe that was loaded whole: words about it.
+bool isOfARecipe(const std::string& name) {
+  return name.rfind("recipe/", 0) == 0 && name.rfind("recipe/bridge/", 0) != 0;
+}
+
+/// A parameter and those below it, `name: value` each, a line each.
+std::string linesOf(const std::string& name, XmlRpc::XmlRpcValue& value) {
+  std::string lines;
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
+    const std::string above = name.empty() ? "" : name + "/";
+    for (auto& [key, below] : value) lines += linesOf(above + key, below);
+    return lines;
+  }
+  if (isOfARecipe(name)) return lines;
+  std::ostringstream written;
+  written.imbue(std::locale::classic());
+  value.write(written);
+  const std::string text = written.str();
+  if (text.find('\n') == std::string::npos) return name + ": " + printableText(text) + "\n";
+  std::istringstream list(text);  // of parameters in their turn
+  for (std::string line; std::getline(list, line);) lines += printableText(line) + "\n";
+  return lines;
+}
+
+/// What node_supervisor has noted of the node under test, a line each; empty without one.
+std::string provenanceOfNode() {
+  const auto end = Clock::now() + kProvenanceLimit;
+  while (ros::param::has(ros::names::resolve("node_supervisor/launch")) &&
+         !ros::param::has(ros::names::resolve("node_supervisor/provenance")) &&
+         Clock::now() < end && ros::ok()) {
+    std::this_thread::sleep_for(kClientPollPeriod);
+  }
+  XmlRpc::XmlRpcValue lines;
+  if (!ros::param::get(ros::names::resolve("node_supervisor/provenance"), lines)) return "";
+  std::string text;
+  for (int i = 0; i < lines.size(); ++i) text += "node " + std::string(lines[i]) + "\n";
+  return text;
+}
+
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -52,11 +94,8 @@ double secondsSince(Clock::time_point start) {
 std::string parametersOf(const std::string& node) {
   XmlRpc::XmlRpcValue value;
   std::string ignored;
-  if (!ros::names::validate(node, ignored) || !ros::param::get(node, value)) return "";
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  value.write(text);
-  return text.str();
+  const bool has_parameters = ros::names::validate(node, ignored) && ros::param::get(node, value);
+  return has_parameters ? linesOf("", value) : "";
 }
 
 RunClients::RunClients(const ServerParameters& parameters, ProblemSession& session,
@@ -115,6 +154,7 @@ void RunClients::note(const std::set<std::string>& names) {
   noted_ = names;
   std::string parameters;
   for (const auto& name : names) parameters += parametersOf(name);
+  parameters += provenanceOfNode();
   record_.noteClient(joinNames(names), parameters);
 }
 
@@ -123,7 +163,8 @@ void RunClients::checkThoseOfFinishedRun() {
   const auto start = Clock::now();
   while (!shutdown_.requested() && secondsSince(start) < parameters_.summary_hold_time) {
     for (const auto& name : publications_.listeners()) {
-      if (clients.count(name) > 0) return record_.noteClient(name, parametersOf(name));
+      if (clients.count(name) > 0)
+        return record_.noteClient(name, parametersOf(name) + provenanceOfNode());
     }
     std::this_thread::sleep_for(kClientPollPeriod);
   }

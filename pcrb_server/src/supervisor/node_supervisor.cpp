@@ -1,6 +1,9 @@
 #include "supervisor/node_supervisor.hpp"
 
 #include <pcrb_msgs/Result.h>
+#include <ros/names.h>
+#include <ros/package.h>
+#include <ros/param.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -66,8 +69,22 @@ SupervisorParameters readSupervisorParameters() {
     }
   }
   parameters.autostart = reader.boolean("autostart");
+  reader.allowOwnParameter("provenance");
   reader.finish();
   return parameters;
+}
+
+void describeLaunch(const SupervisorParameters& parameters, const ShutdownRequest& shutdown) {
+  const std::string note = ros::names::resolve("~provenance");
+  ros::param::del(note);
+  const std::string script = ros::package::getPath("pcrb_server") + "/scripts/describe_launch.py";
+  std::vector<std::string> command{PCRB_PYTHON, "-B", script, note};
+  command.insert(command.end(), parameters.command.begin() + 2, parameters.command.end());
+  SupervisedCommand description(command);
+  description.start();
+  while (!shutdown.requested() && description.isRunning()) std::this_thread::sleep_for(kPollPeriod);
+  if (shutdown.requested() || ros::param::has(note)) return;
+  throw Error("the node's launch file cannot be started as asked: the lines above say why");
 }
 
 NodeSupervisor::NodeSupervisor(const SupervisorParameters& parameters, ShutdownRequest& shutdown)

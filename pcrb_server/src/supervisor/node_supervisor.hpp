@@ -28,6 +28,11 @@ extern const ParameterTable kSupervisorParameters;
 /// @throws InvalidParameter  listing every mistake.
 SupervisorParameters readSupervisorParameters();
 
+/// Checks the launch file's arguments, and notes what it starts as ~provenance, which the server
+/// puts into the run's table.
+/// @throws Error  if it does not take its arguments, or cannot be read; why is printed.
+void describeLaunch(const SupervisorParameters& parameters, const ShutdownRequest& shutdown);
+
 /// Runs a user's launch file as a child, and starts it anew when it dies or on request.
 class NodeSupervisor {
  public:

@@ -49,6 +49,19 @@ TEST_F(ScanScheduleTest, SendsTheFirstScanAtOnceAndTheNextAfterAnAnswerAndThePer
   EXPECT_EQ(scans.next(kStart + 0.1001), Action::kSendScan);
 }
 
+TEST_F(ScanScheduleTest, KeepsTheRateOfASensorWhetherTheNodeAnswersOrNot) {
+  policy_.keeps_rate = true;
+  auto scans = sequence(Kind::kNth, 3);
+  send(scans, kStart);
+  EXPECT_EQ(scans.next(kStart + 0.05), Action::kWait);
+  EXPECT_EQ(scans.next(kStart + 0.1001), Action::kSendScan);
+  send(scans, kStart + 0.1001);
+  EXPECT_TRUE(answer(scans, kStart + 0.15, 1));
+  EXPECT_EQ(scans.next(kStart + 0.16), Action::kWait);
+  EXPECT_EQ(scans.scans()[0].answered, kStart + 0.15);
+  EXPECT_EQ(scans.scans()[1].answered, 0.0);
+}
+
 TEST_F(ScanScheduleTest, SendsTheNextScanWithoutAnAnswerAfterTheLimit) {
   auto scans = sequence(Kind::kFirst);
   send(scans, kStart);

@@ -84,7 +84,7 @@ void SceneBag::write(const pcrb::Scene& scene) {
       const bool is_absolute = name[0] == '/';
       const std::string topic =
           is_absolute ? name : std::string("/") + pcrb::kDefaultNamespace + "/" + name;
-      bag_->write(topic, scene.stamp, message, connectionHeader<Message>(topic, is_latched));
+      bag_->write(topic, scene.dueAt(name), message, connectionHeader<Message>(topic, is_latched));
     });
   });
 }

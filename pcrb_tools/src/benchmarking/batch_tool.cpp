@@ -61,7 +61,7 @@ class Batch {
 
 /// What is benchmarked, for people who watch: the method or the node, as far as arguments say it.
 std::string subjectOf(const BatchOptions& options) {
-  for (const std::string prefix : {"method:=", "node_launch:="}) {
+  for (const std::string prefix : {"method:=", "node:=", "node_launch:="}) {
     for (const std::string& argument : options.arguments) {
       if (argument.rfind(prefix, 0) == 0) return argument.substr(prefix.size());
     }

@@ -146,6 +146,7 @@ Json chartsOf(const Section& section) {
   charts["solved"] = solvedCurves(section, thresholds);
   charts["over_misalignment"] = binnedErrors(section, &ScoredProblem::initial_misalignment);
   charts["over_overlap"] = binnedErrors(section, &ScoredProblem::overlap);
+  charts["over_scans"] = errorsOverScans(section);
   charts["histograms"] = histograms(section);
   charts["overlaps"] = overlapHistograms(section);
   return charts;

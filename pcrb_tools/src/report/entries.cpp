@@ -88,7 +88,11 @@ void addRun(const std::string& text, std::vector<Entry>& entries) {
   frame.path = run.path;
   frame.info = pcrb::RunInfo::read(store);
   std::vector<ScoredProblem> problems;
-  for (const pcrb::Result& result : store.results()) problems.push_back(fromResult(result));
+  auto scans = store.scans();
+  for (const pcrb::Result& result : store.results()) {
+    problems.push_back(fromResult(result));
+    problems.back().scans = std::move(scans[result.key]);
+  }
   if (problems.empty()) throw pcrb::InvalidFile(store.path(), "holds no result yet");
   addByKind(frame, std::move(problems), entries);
 }

@@ -64,8 +64,8 @@ Json publishedCorrelationsOf(const Section& section) {
 }
 
 /// Of figures.py, behind `<kind>_`; histograms have the method's name behind theirs.
-constexpr const char* kFigures[] = {"medians",      "solved",   "over_misalignment",
-                                    "over_overlap", "overlaps", "components"};
+constexpr const char* kFigures[] = {"medians",    "solved",   "over_misalignment", "over_overlap",
+                                    "over_scans", "overlaps", "components"};
 
 /// Paths below the folder of a report, without those of the files that every report has.
 std::vector<std::string> filesOf(const Json& report) {
@@ -120,6 +120,8 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   add(correlationTable(section));
   add(recallTable(section, options_));
   add(runtimeTable(section));
+  add(settlingTable(section));
+  add(keepingUpTable(section));
   add(componentTable(section));
   add(groundTruthTable(section, accuracies));
   add(publishedTable(section));

@@ -30,6 +30,7 @@ struct ScoredProblem {
   std::optional<double> finished;                   ///< s since the epoch
   std::optional<pcrb::Transform> reply;             ///< the accepted pose, as it was sent
   std::optional<std::array<double, 6>> components;  ///< x y z (m) roll pitch yaw (rad)
+  std::vector<pcrb::ScanRecord> scans;              ///< of a localization node
   std::optional<double> error_per_metre;  ///< the metric of a translation of 1 m of this source
 
   bool isAnswered() const { return outcome == pcrb::Outcome::kReplied; }

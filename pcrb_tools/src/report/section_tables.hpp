@@ -52,13 +52,25 @@ Table runtimeTable(const Section& section);
 /// rows where no run has them.
 Table componentTable(const Section& section);
 
+/// What the rules `first`, `stable` and `deadline` make of the stored answers of localization
+/// nodes. No rows where no run has them.
+Table settlingTable(const Section& section);
+
+/// Scans of localization nodes: sent, unanswered, latency, processor share. No rows without any.
+Table keepingUpTable(const Section& section);
+
+/// Quartiles of the error after each scan, a panel per sequence; a problem that ended before keeps
+/// its last answer.
+Json errorsOverScans(const Section& section);
+
 /// Every problem, worst first.
 Table problemTable(const Section& section);
 
 /// Numbers that are drawn and are in no table: `thresholds` and `solved` (fraction of problems
 /// solved over the error threshold, per method), `over_misalignment` and `over_overlap` (quartiles
-/// of the error in bins, per data set and method), `histograms` (of the error, per sequence and
-/// method, with median, mean and standard deviation) and `overlaps` (of the pairs, per sequence).
+/// of the error in bins, per data set and method), `over_scans`, `histograms` (of the error, per
+/// sequence and method, with median, mean and standard deviation) and `overlaps` (of the pairs, per
+/// sequence).
 Json chartsOf(const Section& section);
 
 }  // namespace pcrb_tools

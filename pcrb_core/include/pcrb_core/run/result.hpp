@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pcrb_core/problem/problem.hpp"
 
@@ -34,6 +35,18 @@ struct ProblemKey {
   bool operator==(const ProblemKey& other) const;
 };
 
+/// A scan that a localization node was given for a problem, and its newest answer to it. Times are
+/// s since the first scan was due.
+struct ScanRecord {
+  std::uint32_t scan = 0;  ///< from 1
+  double sent = 0.0;
+  std::optional<double> answered;
+  bool is_echo = false;                     ///< whether the answer only repeats the initial pose
+  std::optional<Eigen::Vector3d> position;  ///< m, of the answer, in the target's frame
+  std::optional<Eigen::Quaterniond> orientation;  ///< unit
+  std::optional<double> error;                    ///< of the answer
+};
+
 /// One row of the results store (docs/formats.md). Unknown is an empty optional, stored as NULL.
 struct Result {
   ProblemKey key;
@@ -55,10 +68,15 @@ struct Result {
   std::optional<Eigen::Quaterniond> orientation;  ///< unit
   std::optional<std::array<double, 36>> covariance;  ///< row-major x y z rx ry rz
   double finished = 0.0;                             ///< s since the epoch
+  std::vector<ScanRecord> scans;  ///< of a localization node; ResultsStore::scans() reads them
 };
 
 /// Reason of a problem that localization_bridge, not the node under test, gave up as kFailed.
 inline constexpr const char* kNodeLeft = "the node under test left while it had the problem";
+
+/// Beginning of the reason of a reply that localization_bridge took from a node whose answers had
+/// not settled.
+inline constexpr const char* kNotSettled = "not settled";
 
 /// Whether the node under test itself said something that could be taken: a valid reply, or that it
 /// cannot.

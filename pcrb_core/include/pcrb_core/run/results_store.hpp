@@ -68,8 +68,8 @@ class ResultsStore {
   /// All sessions, in the order in which they began.
   std::vector<Session> sessions() const;
 
-  /// Commits one result. The covariance is stored as text: 36 numbers in their shortest exact form,
-  /// separated by spaces; its entries need not be finite.
+  /// Commits one result and its scans. The covariance is stored as text: 36 numbers in their
+  /// shortest exact form, separated by spaces; its entries need not be finite.
   ///
   /// @throws StoreError  if the problem has a result already; if a number is negative, not finite
   ///                     or out of its range, or the pose is incomplete; on any failure to write;
@@ -85,8 +85,11 @@ class ResultsStore {
   /// Keys of all stored results.
   std::set<ProblemKey> finished() const;
 
-  /// All results, ordered by data set, sequence, kind, problem id.
+  /// All results, ordered by data set, sequence, kind, problem id; without their scans.
   std::vector<Result> results() const;
+
+  /// Scans of all results that have any, in order.
+  std::map<ProblemKey, std::vector<ScanRecord>> scans() const;
 
   /// Writes `results.csv` (all columns of the result table, in the order of results(), NULL as
   /// empty field, quoted as in RFC 4180) beside the store, to a temporary name, then renames.
@@ -96,6 +99,9 @@ class ResultsStore {
 
  private:
   struct Impl;
+
+  void insert(const Result& result);
+
   std::unique_ptr<Impl> impl_;
 };
 

@@ -69,6 +69,9 @@ class RunRecord {
   /// Statistics of all results so far.
   std::vector<SequenceSummary> summary() const { return summarize(store_.results()); }
 
+  /// What is to be said of them below their table.
+  std::string remarks() const { return describeScans(store_.results()); }
+
   /// Writes results.csv and summary.txt.
   void writeExports(const std::string& summary_text);
 

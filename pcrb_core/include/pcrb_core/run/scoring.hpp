@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pcrb_core/pose_covariance.hpp"
 #include "pcrb_core/run/problem_poser.hpp"
@@ -23,6 +24,7 @@ struct Submission {
   std::uint32_t scans_used = 0;       ///< 0 = unknown
   double cpu_time = 0.0;              ///< s, of the node under test for this problem, 0 = unknown
   std::uint64_t peak_memory = 0;      ///< bytes, of the node under test so far, 0 = unknown
+  std::vector<ScanRecord> scans;      ///< of a localization node, poses as sent; without errors
   std::string reason;
 };
 
@@ -56,6 +58,7 @@ struct Reply {
   std::optional<std::uint32_t> scans_used;
   double cpu_time = 0.0;          ///< s, of the node under test for this problem, 0 = unknown
   std::uint64_t peak_memory = 0;  ///< bytes, of the node under test so far, 0 = unknown
+  std::vector<ScanRecord> scans;  ///< of a localization node, without errors
   std::uint32_t rejected = 0;     ///< rejected replies to this problem before it ended
 };
 

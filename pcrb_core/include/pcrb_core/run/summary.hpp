@@ -28,4 +28,9 @@ std::vector<SequenceSummary> summarize(const std::vector<Result>& results);
 /// columns, `-` where there is no value.
 std::string formatSummary(const std::vector<SequenceSummary>& summaries);
 
+/// What the replies of a localization node are worth, after an empty line: the median of doing
+/// nothing, how many are worse than that or had not settled, a warning where the node makes things
+/// worse. Empty where no reply says how many scans it took.
+std::string describeScans(const std::vector<Result>& results);
+
 }  // namespace pcrb

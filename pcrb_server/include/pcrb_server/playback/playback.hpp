@@ -19,6 +19,9 @@ class Playback {
 
   virtual std::size_t size() const = 0;
 
+  /// s by which the first messages of the next scene are due before its stamp.
+  virtual double lead() const { return 0.0; }
+
   /// The next scene; after the last one the first again, as if nothing had been shown before.
   ///
   /// @param stamp  of all its messages; later than that of the scene before.
@@ -38,6 +41,11 @@ struct SequenceOptions {
   bool publish_ground_truth = true;
   std::string map_frame = "map";
   std::string scan_frame = "pcrb_scan";  ///< of the scan without ground truth
+
+  // Without ground truth, as localization_bridge does:
+  std::string base_frame;           ///< parent of scan_frame on tf, as identity; empty = none
+  double map_settle = 1.0;          ///< s from the map to the initial pose
+  double initialpose_settle = 0.1;  ///< s from the initial pose to the first scan
 };
 
 /// @throws Error  if the folder, a name or the map is wrong, or, without ground truth, if the first

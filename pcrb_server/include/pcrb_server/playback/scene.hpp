@@ -35,6 +35,20 @@ struct Scene {
   std::optional<geometry_msgs::PoseStamped> sensor;
   std::optional<nav_msgs::Path> path;
   std::optional<visualization_msgs::MarkerArray> markers;
+
+  /// s before the stamp at which map and static transforms, and the initial pose, are due: a node
+  /// needs time for them before the first scan.
+  double map_lead = 0.0;
+  double initial_pose_lead = 0.0;
+
+  /// When the messages of a topic are due.
+  ros::Time dueAt(const std::string& topic) const {
+    const bool is_early = topic == topics::kMap || topic == topics::kTfStatic;
+    const double lead = is_early                        ? map_lead
+                        : topic == topics::kInitialPose ? initial_pose_lead
+                                                        : 0.0;
+    return stamp - ros::Duration(lead);
+  }
 };
 
 /// Calls `take(topic, message, is_latched)` with each message, those first without which others

@@ -70,6 +70,27 @@ class SmoothingLocalizer(NdtLocalizer):
         return self.pose
 
 
+class RunawayLocalizer(NdtLocalizer):
+    """A filter whose velocity takes more than all of a correction for motion: it swings ever wider about a robot that stands still."""
+
+    POSITION_GAIN, VELOCITY_GAIN = 0.5, 3.2  # 2 a + b < 4 would be stable
+    PERIOD = 0.1  # s, before the second scan
+
+    def initialise(self, pose, covariance=None, stamp=0.0):
+        self.pose = self.measured = pose
+        self.velocity, self.stamp = np.zeros(3), None
+
+    def update(self, scan, stamp):
+        dt = self.PERIOD if self.stamp is None else max(1e-3, stamp - self.stamp)
+        self.stamp = stamp
+        self.measured, _ = self.measure(scan, self.measured)
+        predicted = self.pose[:3, 3] + self.velocity * dt
+        residual = self.measured[:3, 3] - predicted
+        self.velocity = self.velocity + self.VELOCITY_GAIN * residual / dt
+        self.pose = transform(self.measured[:3, :3], predicted + self.POSITION_GAIN * residual)
+        return self.pose
+
+
 class ParticleLocalizer:
     """Particles drawn from the covariance of the initial pose, weighed by how well the scan fits.
 

@@ -1,4 +1,4 @@
-#include "bridge/convergence_monitor.hpp"
+#include "pcrb_core/run/convergence_monitor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +95,40 @@ TEST(ConvergenceMonitor, DeadlineNeverSettlesBeforeIt) {
   for (int scan = 1; scan < 50; ++scan) settling.add(at(scan, 5.0));
   EXPECT_FALSE(settling.isSettled());
   EXPECT_EQ(settling.latest()->scan, 49);
+}
+
+ScanRecord stored(std::uint32_t scan, double x, bool is_echo = false) {
+  ScanRecord record;
+  record.scan = scan;
+  record.answered = 0.1 * scan;
+  record.is_echo = is_echo;
+  record.position = Eigen::Vector3d(x, 0.0, 0.0);
+  record.orientation = Eigen::Quaterniond::Identity();
+  return record;
+}
+
+TEST(ReplayRule, SaysWhatEachRuleTakesOfTheSameAnswers) {
+  std::vector<ScanRecord> scans{stored(1, 1.0, true), stored(2, 2.0),   stored(3, 5.0),
+                                stored(4, 5.0),       stored(5, 5.001), stored(6, 7.0)};
+  scans.insert(scans.begin() + 3, ScanRecord());  // without an answer
+  const auto scanOf = [&](AcceptanceRule::Kind kind) {
+    return replayRule(rule(kind), scans).answer->scan;
+  };
+  EXPECT_EQ(scanOf(AcceptanceRule::Kind::kFirst), 2u);
+  EXPECT_EQ(scanOf(AcceptanceRule::Kind::kNth), 4u);
+  EXPECT_EQ(scanOf(AcceptanceRule::Kind::kStable), 5u);
+  EXPECT_EQ(scanOf(AcceptanceRule::Kind::kDeadline), 6u);
+}
+
+TEST(ReplayRule, TakesTheLastAnswerWhereNothingSettles) {
+  const std::vector<ScanRecord> scans{stored(1, 1.0), stored(2, 2.0)};
+  const RuleReplay stable = replayRule(rule(AcceptanceRule::Kind::kStable), scans);
+  EXPECT_FALSE(stable.is_settled);
+  EXPECT_EQ(stable.answer, &scans[1]);
+  EXPECT_TRUE(replayRule(rule(AcceptanceRule::Kind::kDeadline), scans).is_settled);
+  const RuleReplay nothing = replayRule(rule(AcceptanceRule::Kind::kFirst), {ScanRecord()});
+  EXPECT_FALSE(nothing.is_settled);
+  EXPECT_EQ(nothing.answer, nullptr);
 }
 
 }  // namespace

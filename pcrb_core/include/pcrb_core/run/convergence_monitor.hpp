@@ -2,10 +2,11 @@
 
 #include <deque>
 #include <optional>
-#include <string>
+#include <vector>
 
+#include "pcrb_core/pose_covariance.hpp"
+#include "pcrb_core/run/result.hpp"
 #include "pcrb_core/transform.hpp"
-#include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
 
@@ -65,6 +66,15 @@ class ConvergenceMonitor {
   std::optional<ScanAnswer> latest_;
   std::deque<Transform> window_;  ///< the last `count` answers
 };
+
+/// Which of a problem's stored answers a rule would have taken.
+struct RuleReplay {
+  const ScanRecord* answer = nullptr;  ///< none where no answer counts
+  bool is_settled = false;             ///< false: the last answer, for want of a better one
+};
+
+/// @param scans  of one problem, in order; must outlive what is returned.
+RuleReplay replayRule(const AcceptanceRule& rule, const std::vector<ScanRecord>& scans);
 
 /// Whether two poses differ by less than m and rad.
 bool isNear(const Transform& a, const Transform& b, double translation, double rotation);

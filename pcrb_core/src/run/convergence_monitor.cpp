@@ -1,4 +1,4 @@
-#include "bridge/convergence_monitor.hpp"
+#include "pcrb_core/run/convergence_monitor.hpp"
 
 #include <algorithm>
 
@@ -55,6 +55,21 @@ bool ConvergenceMonitor::isSettled() const {
       break;
   }
   return false;
+}
+
+RuleReplay replayRule(const AcceptanceRule& rule, const std::vector<ScanRecord>& scans) {
+  RuleReplay replay;
+  ConvergenceMonitor monitor(rule, std::nullopt);
+  for (const ScanRecord& record : scans) {
+    if (record.is_echo || !record.position) continue;
+    monitor.add({static_cast<int>(record.scan),
+                 makeTransform(*record.position, *record.orientation), std::nullopt});
+    replay.answer = &record;
+    if (monitor.isSettled()) break;
+  }
+  const bool takes_last = rule.kind == AcceptanceRule::Kind::kDeadline && replay.answer != nullptr;
+  replay.is_settled = takes_last || monitor.isSettled();
+  return replay;
 }
 
 }  // namespace pcrb

@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""pcrb probe: what a node takes and says becomes the recipe that fits; what cannot be told is said."""
+import os
+import subprocess
+import sys
+
+import rostest
+import yaml
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from pcrb_testing import TestCase, executable
+
+
+class ProbeTest(TestCase):
+
+    def probe(self, node, *words):
+        """Exit status, parameters, and what was printed."""
+        pcrb = os.path.join(os.path.dirname(executable('pcrb_tools', 'report')), '..', '..', 'bin', 'pcrb')
+        result = subprocess.run([pcrb, 'probe', '--node', f'localization_standins {node}_localizer.launch', *words],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding='utf-8', check=False)
+        text = ' '.join(line.lstrip('# ') for line in result.stdout.splitlines()) + result.stderr
+        return result.returncode, yaml.safe_load(result.stdout), text
+
+    def test_topics_links_and_the_rule_are_found_out(self):
+        _, ndt, text = self.probe('ndt')
+        self.assertEqual(ndt, {'map_topic': '/map_cloud', 'scan_topic': '/scan_cloud', 'pose_topic': '/ndt_pose', 'settle': 'first'})
+        self.assertIn('10 of 10 scans were answered', text)
+        _, particle, _ = self.probe('particle')
+        self.assertEqual((particle['pose_topic'], particle['tf_odom_base']), ('tf', 'dynamic'))
+        _, smoothing, text = self.probe('smoothing', '--output', self.path('recipe.yaml'))
+        self.assertEqual((smoothing['pose_topic'], smoothing['settle']), ('/odom', 'stable'))
+        self.assertIn('its first answer repeats the initial pose', text)
+        with open(self.path('recipe.yaml'), encoding='utf-8') as file:
+            self.assertEqual(yaml.safe_load(file), smoothing)
+
+    def test_bad_manners_are_named(self):
+        expected = {'now': ({'match': 'arrival'}, 'stamp of no scan'), 'ahead': ({'answer_delay': 0.2}, '0.2000 s after their scans'),
+                    'frame': ({}, 'answers are in frame world'), 'nan': ({}, 'poses are no pose'),
+                    'silent': ({}, r'the node answered none of ten scans'), 'crash': ({}, 'the node died during the probe'),
+                    'owner': ({}, 'another node publishes /map_cloud, which the bridge does'),
+                    'velocity': ({'settle': 'first'}, 'a motion model takes the correction for motion')}
+        for manner, (parameters, words) in expected.items():
+            _, found, text = self.probe('ill_mannered', '--node-args', f'manner={manner}')
+            self.assertIn(words, text, manner)
+            for name, value in parameters.items():
+                self.assertEqual(found.get(name), value, text)
+
+    def test_a_launch_file_that_fails_is_an_error_with_what_it_printed(self):
+        status, _, text = self.probe('no_such')
+        self.assertEqual(status, 1)
+        self.assertIn('no_such_localizer.launch', text)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('pcrb_launch', 'probe', ProbeTest)
