@@ -1,12 +1,14 @@
 """What the page's template shows of a section of report.json: charts, and numbers in other arrangements."""
 from markupsafe import Markup
 
+import calibration
 import charts
+import series
 from svg import error, interval
 
 PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('solved', 'solved'),
-         ('dependence', 'dependence'), ('distributions', 'distributions'), ('axes', 'axes'), ('times', 'times'),
-         ('overlap', 'overlap'), ('problems', 'problems'), ('published', 'published')]
+         ('dependence', 'dependence'), ('distributions', 'distributions'), ('series', 'repeats and sweeps'), ('axes', 'axes'), ('covariances', 'covariances'), ('times', 'times'),
+         ('overlap', 'overlap'), ('sequences', 'sequences'), ('problems', 'problems'), ('published', 'published')]
 TOO_FEW = 'too few pairs to tell'  # the verdict of a test that could not reject
 HEADINGS = {'sequence': 'Sequences', 'data set': 'Data sets', 'group': 'By characteristic', 'total': 'All problems'}
 
@@ -147,8 +149,11 @@ def histograms_of(section, colors):
 
 def parts_of(section):
     """What the page's bar of links leads to: the parts that this section has."""
-    absent = {part for part, table in (('differences', 'comparisons'), ('axes', 'components'), ('times', 'runtimes'))
+    absent = {part for part, table in (('differences', 'comparisons'), ('axes', 'components'), ('times', 'runtimes'),
+                                 ('covariances', 'covariances'))
               if table not in section['tables']}
+    if 'trials' not in section['tables'] and 'sweeps' not in section['tables']:
+        absent.add('series')
     if not section['charts']['overlaps']:
         absent.add('overlap')
     return [{'id': part, 'name': name} for part, name in PARTS if part not in absent]
@@ -156,7 +161,7 @@ def parts_of(section):
 
 def view(section):
     tables = section['tables']
-    for name in ('comparisons', 'recall', 'runtimes', 'components', 'ground_truth'):
+    for name in ('comparisons', 'recall', 'runtimes', 'components', 'ground_truth', 'covariances', 'covariance_axes', 'trials', 'sweeps'):
         tables.setdefault(name, None)
     present = {name: table for name, table in tables.items() if table}
     section['tables'] = present
@@ -186,6 +191,10 @@ def view(section):
         'overlaps': drawn(section['charts']['overlaps'], charts.overlaps),
         'recall_totals': only_totals(present['recall']) if 'recall' in present else None,
         'runtime_totals': only_totals(present['runtimes']) if 'runtimes' in present else None,
+        'covariance_totals': only_totals(present['covariances']) if 'covariances' in present else None,
+        'sweep_charts': [{**chart, 'svg': trusted(chart['svg'])} for chart in series.sweeps(present['sweeps'])]
+                        if 'sweeps' in present else [],
+        'calibration': trusted(calibration.curves(section['charts']['calibration'], colors)),
         'latencies': trusted(charts.latencies(present['runtimes'], colors)) if 'runtimes' in present else None,
     }
     if 'components' in present:
