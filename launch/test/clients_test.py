@@ -48,6 +48,25 @@ class ClientsTest(TestCase):
                                    'the method threw what is no std::exception'})
         self.assertEqual({row['outcome'] for row in server.rows()}, {'failed', 'replied'})
 
+    def replies(self, name, **parameters):
+        """ICP's replies in a run of its own, exact, by problem."""
+        server = self.server(self.data, sequences='kitchen', run=self.path(name))
+        self.registration_node(server, **parameters)
+        self.assert_ends_well(server)
+        return {row['problem_id']: (row['x'], row['y'], row['z']) for row in server.rows()}
+
+    def test_the_voxel_leaf_of_dataset_yaml_reaches_the_method(self):
+        folder = os.path.join(self.path('root'), 'rooms')
+        with open(os.path.join(folder, 'dataset.yaml'), 'a') as file:
+            file.write('voxel_leaf: 0.7\n')
+        with open(self.path('fixed.yaml'), 'w') as file:
+            file.write('voxel_leaf: 0.7\n')
+        with open(self.path('other.yaml'), 'w') as file:
+            file.write('voxel_leaf: 0.2\n')
+        of_the_data_set = self.replies('of_the_data_set')
+        self.assertEqual(of_the_data_set, self.replies('fixed', parameters=self.path('fixed.yaml')))
+        self.assertNotEqual(of_the_data_set, self.replies('other', parameters=self.path('other.yaml')))
+
     def test_a_client_that_comes_while_a_problem_is_out_may_still_answer_it(self):
         server = self.server(self.data, time_limit=60.0, sequences='kitchen')
         early = self.client(server)

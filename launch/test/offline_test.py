@@ -201,6 +201,20 @@ class OfflineTest(TestCase):
         self.assertRegex(summary, 'scans 2, with a pose 2')
         self.assertRegex(summary, r'APE translation m +2 +0.500000')
         self.assertRegex(summary, r'APE rotation deg +2 +2.000000')
+        self.assertNotIn('lost 0', summary)
+        self.assertGreater(len(self.read('tracking/map.csv').splitlines()), 10)
+        first_only = self.write('first.tum', text.splitlines()[0] + '\n')
+        arguments = ('score_poses', '--sequence', self.data.folder('hall'), '--scans', self.path('scans.txt'), '--poses',
+                     first_only, '--output', self.path('lost'))
+        self.assertRegex(self.tool(*arguments), r'lost 1 of 2 scans')
+        with open(self.path('lost', 'scans.csv'), newline='') as file:
+            rows = list(csv.DictReader(file))
+        held = maths.shifted_pose(self.data.viewpoints['hall', scans[0][1]], origin) @ offset
+        truth = maths.shifted_pose(self.data.viewpoints['hall', scans[1][1]], origin)
+        points = self.data.clouds['hall', scans[1][1]] - origin
+        self.assertEqual(rows[1]['error'], '')
+        self.assertAlmostEqual(float(rows[1]['error_or_last_pose']), maths.error(points, held @ np.linalg.inv(truth)), places=5)
+        self.assert_tool_fails('more scans were lost', *arguments, '--max-lost', '0.4')
         with open(self.path('tracking', 'scans.csv'), newline='') as file:
             found = [float(row['error']) for row in csv.DictReader(file)]
         np.testing.assert_allclose(found, expected, atol=1e-6)

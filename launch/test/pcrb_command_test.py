@@ -48,6 +48,22 @@ class PcrbCommandTest(TestCase):
         for pattern in patterns:
             self.assertRegex(result.stderr, pattern)
 
+    def test_a_series_has_a_run_per_value_and_trial_and_goes_on(self):
+        words = ('--method', 'icp', '--sequences', 'kitchen', '--subset', '4', '--sweep', 'voxel_leaf=0.3,0.6', '--repeat', '2')
+        run, output = self.run_of('series', *words)
+        folders = ['voxel_leaf=0.3/trial_1', 'voxel_leaf=0.3/trial_2', 'voxel_leaf=0.6/trial_1', 'voxel_leaf=0.6/trial_2']
+        errors = [{row['problem_id']: row['error'] for row in rows(os.path.join(run, folder))} for folder in folders]
+        self.assertEqual([len(trial) for trial in errors], [4] * 4)
+        self.assertEqual(errors[0], errors[1])  # icp is deterministic
+        self.assertNotEqual(errors[0], errors[2])
+        self.assertNotIn('pcrb replay', output)
+        again = self.run_of('series', *words, '--json')[1]
+        self.assertEqual([one['folder'] for one in json.loads(again)['runs']], folders)
+        self.assert_ends_well(self.start(Child([front_door(), 'report', run, '--output', self.path('report'), '--no-figures'])))
+        with open(self.path('report', 'tables', 'local_trials.csv'), encoding='utf-8') as file:
+            self.assertIn('voxel_leaf=0.3,total,2', file.read())
+        self.assert_refused(['run', '--root', self.data.root, '--run', self.path('s'), '--repeat', '0'], '--repeat')
+
     def test_help_names_every_command_and_each_command_its_options(self):
         overview = pcrb('--help').stdout
         for name in COMMANDS:

@@ -18,6 +18,7 @@
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/run/results_store.hpp"
+#include "pcrb_core/run/run_plan.hpp"
 
 namespace py = pybind11;
 
@@ -168,6 +169,39 @@ py::list readResults(const std::string& folder) {
   return list;
 }
 
+/// The problems of a selection in the order of their files, with what a data set of them needs.
+py::list plan(const std::string& root, const std::vector<std::string>& sequences,
+              const std::vector<std::string>& kinds, std::size_t subset, std::uint64_t seed) {
+  pcrb::ProblemSelection selection;
+  selection.root = root;
+  selection.sequences = sequences;
+  selection.kinds.clear();
+  for (const std::string& kind : kinds) selection.kinds.push_back(pcrb::kindFromString(kind));
+  selection.subset = subset;
+  selection.seed = seed;
+  py::list list;
+  for (const pcrb::PlannedProblem& planned : pcrb::makeRunPlan(selection).problems) {
+    py::dict row;
+    row["id"] = planned.key.problem_id;
+    row["data_set"] = planned.key.data_set;
+    row["sequence"] = planned.key.sequence;
+    row["kind"] = toString(planned.key.kind);
+    row["source"] = planned.problem.source;
+    row["target"] = planned.problem.target;
+    row["source_path"] = planned.source_path;
+    row["target_path"] = planned.target_path;
+    row["overlap"] = planned.problem.overlap;
+    row["voxel_leaf"] = planned.data_set->voxel_leaf;
+    row["perturbation"] = py::cast(Eigen::Matrix4d(planned.P.matrix()));
+    list.append(row);
+  }
+  return list;
+}
+
+Eigen::Vector3d localOrigin(const Array& target) {
+  return pcrb::chooseLocalOrigin(toCloud(target));
+}
+
 std::map<std::string, std::string> readRunInfo(const std::string& folder) {
   auto info = pcrb::ResultsStore(folder, pcrb::ResultsStore::Access::kReadOnly).runInfo();
   return info;
@@ -191,6 +225,8 @@ PYBIND11_MODULE(_pcrb, module) {
   module.def("write_problems", &writeProblems);
   module.def("move", &moved);
   module.def("perturbation_about", &perturbationAbout);
+  module.def("plan", &plan);
+  module.def("local_origin", &localOrigin);
   module.def("read_results", &readResults);
   module.def("read_run_info", &readRunInfo);
 }

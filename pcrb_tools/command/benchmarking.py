@@ -1,5 +1,6 @@
 """pcrb run, localize and replay: launch files with a master of their own, unless the current one is wanted."""
 import contextlib
+import csv
 import dataclasses
 import json
 import os
@@ -21,6 +22,8 @@ from words import WORDS
 
 MASTER = Option('master', 'ROS master: one of its own on a free port, or the one at ROS_MASTER_URI',
                 choices=('own', 'current'), default='own')
+REPEAT = Option('repeat', 'number of trials, for what is not deterministic, each a run in trial_<i>', 'int', low=1, high=1000, default=1)
+SWEEP = Option('sweep', 'a run for each value of a parameter of the method', metavar='NAME=V1,V2,...')
 JSON = Option('json', 'print the result as JSON and nothing else', 'flag')
 OWN_SETTINGS = ('node', 'shard', 'autostart', 'required', 'client', 'under-test', 'connect-limit', 'ready-limit', 'loop')
 CHOICES = {'restart': ('never', 'target', 'problem'), 'settle': ('first', 'nth', 'stable', 'deadline'),
@@ -46,7 +49,7 @@ class Benchmark:
     def options(self):
         jobs = dataclasses.replace(WORDS['jobs'], default=1)
         required = {'root': {'required': True}, 'run': {'required': True}}
-        return [*options_of(self.file, {**required, **self.changes}), *self.extra, jobs, MASTER, JSON]
+        return [*options_of(self.file, {**required, **self.changes}), *self.extra, REPEAT, jobs, MASTER, JSON]
 
     def check(self, values):
         known = [(data_set, sequence) for data_set, sequence, _, _ in places.problem_files(values['root'], values['kind'])]
@@ -69,12 +72,23 @@ class Benchmark:
             how = run_with_current_master if values['master'] == 'current' else run_with_own_master
             status = how(name, file, arguments, run, values)
         if values['json']:
-            print(json.dumps({'status': status, **result_of(run)}, indent=1))
+            print(json.dumps({'status': status, **(result_of_series(run) if is_series(values) else result_of(run))}, indent=1))
         elif status == 0:
             shown, report = shlex.quote(values['run']), shlex.quote(values['run'] + '/report')
-            print(f'\nlook at the worst:  pcrb replay --run {shown} --order worst --rviz\n'
-                  f'make the report:    pcrb report {shown} --output {report}')
+            if not is_series(values):
+                print(f'\nlook at the worst:  pcrb replay --run {shown} --order worst --rviz', end='')
+            print(f'\nmake the report:    pcrb report {shown} --output {report}')
         return status
+
+
+def is_series(values):
+    return values['repeat'] > 1 or bool(values.get('sweep'))
+
+
+def result_of_series(run):
+    """The results of each run of a series, by its folder."""
+    with open(os.path.join(run, 'series.csv'), encoding='utf-8', newline='') as file:
+        return {'run': run, 'runs': [{**row, **result_of(os.path.join(run, row['folder']))} for row in csv.DictReader(file)]}
 
 
 def method_mistakes(values):
@@ -91,7 +105,8 @@ def master_mistakes(values):
     if values['master'] == 'own':
         has_node = values.get('node', 'none is needed')
         return [] if has_node else ['--node: must be given: launch file of the node, package and file, or recipe (pcrb recipes)']
-    mistakes = [] if values['jobs'] == 1 else ['--jobs: found several, expected 1 with --master current']
+    mistakes = ['--repeat, --sweep: found a series, expected one run with --master current'] if is_series(values) else []
+    mistakes += [] if values['jobs'] == 1 else ['--jobs: found several, expected 1 with --master current']
     if not has_master():
         uri = os.environ.get('ROS_MASTER_URI')
         mistakes.append(f'--master: found none at {uri}, expected a roscore there, or --master own')
@@ -145,7 +160,9 @@ def launch_of(file, values):
 
 
 def run_with_own_master(name, file, arguments, run, values):
-    command = [program('evaluate_batch'), '--run', run, '--jobs', str(values['jobs']), '--launch', file, *arguments]
+    series = ['--repeat', str(values['repeat']), *(['--sweep', values['sweep']] if values.get('sweep') else [])]
+    command = [program('evaluate_batch'), '--run', run, '--jobs', str(values['jobs']), '--launch', file,
+               *(series if is_series(values) else []), *arguments]
     return run_program(command, f'pcrb {name}', stdout=subprocess.DEVNULL if values['json'] else None)
 
 

@@ -8,10 +8,10 @@ import doctor
 import probe
 import scoring
 import texts
-from benchmarking import Benchmark, Replay
+from benchmarking import SWEEP, Benchmark, Replay
 from options import Option, did_you_mean, one_of
 from programs import Tool
-from words import METHODS, TIME_LIMIT
+from words import BASELINES, METHODS, TIME_LIMIT
 
 
 class Module:
@@ -37,8 +37,9 @@ class Command:
 
 
 def paper_mistakes(values):
-    wrong = [method for method in values['method'] if method not in METHODS and not values['plugin']]
-    return [f'--method: found `{method}`, expected {one_of(METHODS)}, or --plugin with your own{did_you_mean(method, METHODS)}'
+    known = (*METHODS, *BASELINES)
+    wrong = [method for method in values['method'] if method not in known and not values['plugin']]
+    return [f'--method: found `{method}`, expected {one_of(known)}, or --plugin with your own{did_you_mean(method, known)}'
             for method in wrong]
 
 
@@ -64,7 +65,7 @@ COMMANDS = [
     Command('check', 'data', 'check data sets: clouds, problems, overlaps', Tool('check_dataset', changes=ROOTED),
             'pcrb check --root ~/pcrb --sequences eth kaist'),
     Command('run', 'run', 'benchmark a registration method, or a client of your own', Benchmark('benchmark.launch', {
-        'time-limit': {'default': TIME_LIMIT}}, [CLIENT]), 'pcrb run --root ~/pcrb --run ~/runs/gicp --method gicp --subset 100'),
+        'time-limit': {'default': TIME_LIMIT}}, [CLIENT, SWEEP]), 'pcrb run --root ~/pcrb --run ~/runs/gicp --method gicp --subset 100'),
     Command('localize', 'run', 'benchmark a localization node as it is', Benchmark('localization.launch', {
         'time-limit': {'default': TIME_LIMIT}, 'bridge-parameters': {'kind': 'file', 'metavar': 'FILE'}}),
             'pcrb localize --root ~/pcrb --run ~/runs/amcl3d --sequences planetary_map --node "my_package my_node.launch"'),

@@ -3,6 +3,7 @@ from options import Option
 
 TIME_LIMIT = 30  # s
 METHODS = ('icp', 'gicp', 'ndt', 'ppcr', 'ransac', 'fgr', 'teaser')
+BASELINES = ('icp_pcl', 'gicp_pcl', 'ndt_pcl', 'ndt_1m', 'ndt_coarse_to_fine', 'ppcr_text', 'do_nothing')
 
 WORDS = {option.name: option for option in (
     Option('root', 'folder of the data sets, in the common layout', 'folder'),

@@ -141,14 +141,20 @@ def histogram(method, color, name):
     return chart.svg()
 
 
+def overlap_edges(panel):
+    """Ends of the intervals of overlap that the panel's pairs were drawn from."""
+    count, width = len(panel['counts']), panel['high'] - panel['low']
+    return [panel['low'] + width * i / count for i in range(count + 1)]
+
+
 def overlaps(panel):
-    count = len(panel['counts'])
+    edges = overlap_edges(panel)
     chart = Chart(Linear(0, 1), Linear(0, 1.08 * max(panel['counts'] + [1]), True), 'overlap', 'pairs', 170,
                   f'overlaps of the pairs, {panel["selection"]}')
     for i, pairs in enumerate(panel['counts']):
         if pairs:
-            chart.box((i / count, 0), ((i + 1) / count, pairs), 'var(--neutral)',
-                      f'overlap {i / count:g} to {(i + 1) / count:g}: {pairs} pairs')
+            chart.box((edges[i], 0), (edges[i + 1], pairs), 'var(--neutral)',
+                      f'overlap {edges[i]:.3f} to {edges[i + 1]:.3f}: {pairs} pairs')
     chart.line(chart.at(panel['median'], 0), chart.at(panel['median'], chart.y.high), 'median',
                title=f'median {panel["median"]:.3f}')
     return chart.svg()

@@ -9,6 +9,7 @@ import sys
 
 import jinja2
 import page
+import tracking
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -27,7 +28,8 @@ def draw_page(report):
     static = {name: page.trusted((HERE / f'page.{name}').read_text(encoding='utf-8')) for name in ('css', 'js')}
     sections = [page.view(section) for section in report['sections']]
     return environment.get_template('page.html.j2').render(
-        title=report['title'], version=report['version'], sections=sections, **static)
+        title=report['title'], version=report['version'], sections=sections,
+        trackers=tracking.view(report['trackers']), **static)
 
 
 def main():

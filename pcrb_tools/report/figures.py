@@ -107,8 +107,8 @@ def histograms(panels, method, color):
 def overlaps(panels):
     figure, axes = grid(len(panels), 4, 1.4)
     for axis, panel in zip(axes, panels):
-        count = len(panel['counts'])
-        axis.bar([(i + 0.5) / count for i in range(count)], panel['counts'], 1 / count, color='#7c8aa0')
+        edges = charts.overlap_edges(panel)
+        axis.bar(edges[:-1], panel['counts'], edges[1] - edges[0], align='edge', color='#7c8aa0')
         axis.set(title=panel['selection'], xlim=(0, 1))
     figure.supxlabel('overlap', fontsize=8)
     figure.supylabel('pairs', fontsize=8)

@@ -1,12 +1,15 @@
 """What the page's template shows of a section of report.json: charts, and numbers in other arrangements."""
 from markupsafe import Markup
 
+import calibration
 import charts
+import series
 from svg import error, interval
 
 PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('audit', 'audit'), ('solved', 'solved'),
-         ('dependence', 'dependence'), ('distributions', 'distributions'), ('axes', 'axes'), ('times', 'times'), ('settling', 'settling'),
-         ('overlap', 'overlap'), ('problems', 'problems'), ('published', 'published')]
+         ('dependence', 'dependence'), ('distributions', 'distributions'), ('series', 'repeats and sweeps'), ('axes', 'axes'),
+         ('covariances', 'covariances'), ('times', 'times'), ('settling', 'settling'), ('overlap', 'overlap'),
+         ('sequences', 'sequences'), ('problems', 'problems'), ('published', 'published')]
 TOO_FEW = 'too few pairs to tell'  # the verdict of a test that could not reject
 HEADINGS = {'sequence': 'Sequences', 'data set': 'Data sets', 'group': 'By characteristic', 'total': 'All problems'}
 
@@ -156,8 +159,10 @@ def histograms_of(section, colors):
 def parts_of(section):
     """What the page's bar of links leads to: the parts that this section has."""
     absent = {part for part, table in (('differences', 'comparisons'), ('audit', 'audit'), ('axes', 'components'),
-                                         ('times', 'runtimes'), ('settling', 'keeping_up'))
+                                         ('covariances', 'covariances'), ('times', 'runtimes'), ('settling', 'keeping_up'))
               if table not in section['tables']}
+    if 'trials' not in section['tables'] and 'sweeps' not in section['tables']:
+        absent.add('series')
     if not section['charts']['overlaps']:
         absent.add('overlap')
     return [{'id': part, 'name': name} for part, name in PARTS if part not in absent]
@@ -165,7 +170,8 @@ def parts_of(section):
 
 def view(section):
     tables = section['tables']
-    for name in ('comparisons', 'audit', 'recall', 'runtimes', 'settling', 'keeping_up', 'components', 'ground_truth'):
+    for name in ('comparisons', 'audit', 'recall', 'runtimes', 'settling', 'keeping_up', 'components', 'ground_truth', 'covariances',
+                 'covariance_axes', 'trials', 'sweeps'):
         tables.setdefault(name, None)
     present = {name: table for name, table in tables.items() if table}
     section['tables'] = present
@@ -197,6 +203,10 @@ def view(section):
         'recall_totals': only_totals(present['recall']) if 'recall' in present else None,
         'runtime_totals': only_totals(present['runtimes']) if 'runtimes' in present else None,
         'over_scans': drawn(section['charts']['over_scans'], lambda panel: charts.binned(panel, colors, 'scan')),
+        'covariance_totals': only_totals(present['covariances']) if 'covariances' in present else None,
+        'sweep_charts': [{**chart, 'svg': trusted(chart['svg'])} for chart in series.sweeps(present['sweeps'])]
+                        if 'sweeps' in present else [],
+        'calibration': trusted(calibration.curves(section['charts']['calibration'], colors)),
         'latencies': trusted(charts.latencies(present['runtimes'], colors)) if 'runtimes' in present else None,
     }
     if 'components' in present:

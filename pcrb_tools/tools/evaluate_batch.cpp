@@ -1,4 +1,5 @@
 #include "benchmarking/batch_tool.hpp"
+#include "benchmarking/series.hpp"
 #include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
 
@@ -32,5 +33,12 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0, 999999));
   app.add_option("--scratch", options.scratch,
                  "folder for logs and temporary files [logs: with the results]");
-  return pcrb_tools::runTool(app, argc, argv, [&] { return runBatchTool(options); });
+  pcrb_tools::SeriesOptions series;
+  app.add_option("--repeat", series.repeat,
+                 "number of trials, for what is not deterministic, each a run in trial_<i>")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--sweep", series.sweep,
+                 "NAME=V1,V2,…: a run for each value of a parameter of the method");
+  return pcrb_tools::runTool(app, argc, argv, [&] { return runSeriesTool(options, series); });
 }

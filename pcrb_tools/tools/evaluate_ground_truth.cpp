@@ -9,7 +9,8 @@ int main(int argc, char** argv) {
       "Evaluates the ground truth of data sets: registers each pair of a problem file from its "
       "ground-truth pose and measures how far that moves the source.");
   app.footer(
-      "Writes pairs/*.csv, ground_truth.csv, .txt and .svg. The accuracy of a sequence is the "
+      "Writes pairs/*.csv, ground_truth.csv, .txt, .svg and ground_truth_pairs.svg. The accuracy "
+      "of a sequence is the "
       "floor below which methods cannot be told apart on it: give the CSV to report "
       "--ground-truth.\n"
       "Example: evaluate_ground_truth ~/pcrb --output ground_truth --sequences eth/apartment");
@@ -27,8 +28,10 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--pairs", options.max_pairs,
                  "number of pairs per sequence, evenly over its problem file [0 = all]");
-  app.add_option("--import", options.imports,
-                 "files of misalignments instead, <data set>=<path>/<sequence>.csv");
+  app.add_option(
+      "--import", options.imports,
+      "files of misalignments instead, <data set>=<path>/<sequence>.csv, or the published "
+      "<data set>=<path>/<sequence>_gt_check.dat");
   app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_flag("--force", options.force, "replace files that this tool did not make");
   return pcrb_tools::runTool(app, argc, argv, [&] {

@@ -11,7 +11,8 @@ const pcrb::NodeHelp kHelp{
     "registration_node",
     "Solves the benchmark's problems with a registration method: subscribes, aligns, submits.",
     R"(Private parameters (default):
-  method (gicp)     icp, gicp, … (a wrong name lists them all)
+  method (gicp)     icp, gicp, … (a wrong name lists them all), or the name of a parameter file
+                    that says which method it is for, as ndt_1m
   plugin            shared library with methods of your own, loaded before the method is looked up
   parameters        YAML file of the method's parameters
                     (config/methods/<method>.yaml of the package pcrb_launch: the paper's)
@@ -27,8 +28,9 @@ int run(pcrb::ShutdownRequest& shutdown) {
   const pcrb_tools::MethodChoice method(reader);
   reader.finish();
   method.announce();  // before the first `ready`, when the server reads it
-  pcrb_tools::RegistrationClient client(
-      [&](const std::string& data_set) { return method.make(data_set); });
+  pcrb_tools::RegistrationClient client([&](const pcrb_msgs::Problem& problem) {
+    return method.make(problem.data_set, problem.voxel_leaf);
+  });
   const ros::WallDuration period(0.1);
   while (!client.finished() && !shutdown.requested()) {
     ros::getGlobalCallbackQueue()->callAvailable(period);

@@ -9,9 +9,12 @@ namespace {
 void addOptions(CLI::App& app, pcrb_tools::ReportOptions& options,
                 std::vector<std::tuple<double, double>>& recall) {
   app.add_option("runs", options.runs, "run folders: FOLDER, or NAME=FOLDER to name a method");
-  app.add_option("--import", options.imports,
-                 "result files of others, <method>_<sequence>_<kind>.csv: FILE, or NAME=FILE to "
-                 "name a method");
+  app.add_option(
+      "--import", options.imports,
+      "result files of others, <method>_<sequence>_<kind>.csv, or of the paper's authors, "
+      "<sequence>_<kind>_result.txt: FILE, or NAME=FILE to name a method");
+  app.add_option("--trackers", options.trackers,
+                 "output folders of score_poses --sequence: FOLDER, or NAME=FOLDER");
   app.add_option(
          "--format", options.format,
          "format of the imported files. ppcr: id,initial_misalignment,error; csv: columns of "

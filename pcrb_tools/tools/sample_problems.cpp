@@ -3,6 +3,56 @@
 #include "common/tool_main.hpp"
 #include "preparation/preparation_tools.hpp"
 
+namespace {
+
+/// What a choice is called on the command line.
+struct Choices {
+  std::string kind = "both";
+  std::string bounds = "measured";
+  std::string top_up = "even";
+};
+
+const std::map<std::string, std::vector<pcrb::Kind>> kKinds{
+    {"local", {pcrb::Kind::kLocal}},
+    {"global", {pcrb::Kind::kGlobal}},
+    {"both", {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}}};
+const std::map<std::string, pcrb::BoundsSource> kBounds{{"measured", pcrb::BoundsSource::kMeasured},
+                                                        {"note", pcrb::BoundsSource::kNote}};
+const std::map<std::string, pcrb::TopUp> kTopUps{{"even", pcrb::TopUp::kEven},
+                                                 {"paper", pcrb::TopUp::kPaper}};
+
+void addChoices(CLI::App& app, Choices& choices) {
+  app.add_option("--kind", choices.kind, "kind of the problems: local, global or both [both]")
+      ->check(CLI::IsMember(kKinds));
+  app.add_option("--bounds", choices.bounds,
+                 "bounds of the perturbations of the four published data sets: measured in the "
+                 "published problem files, or of upstream's note [measured]")
+      ->check(CLI::IsMember(kBounds));
+  app.add_option("--top-up", choices.top_up,
+                 "pairs that an interval of overlaps lacks: even, from the intervals with the "
+                 "fewest; paper, from all that are left [even]")
+      ->check(CLI::IsMember(kTopUps));
+}
+
+void addOptions(CLI::App& app, pcrb_tools::SamplingOptions& options) {
+  app.add_option("folder", options.folder, "<root>/<data set>/<sequence>, a folder of .pcd files")
+      ->required();
+  app.add_option("--overlap", options.overlap, "file of the overlap matrix [<folder>_overlap.txt]");
+  app.add_option("--seed", options.seed, "seed that the problems are drawn with")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option(
+      "--map", options.map,
+      "name of a map that every cloud is posed against, without threshold and intervals");
+  app.add_option("--sequence", options.sequence,
+                 "name of the problems' sequence [the folder's; planetary_map with --map]");
+  app.add_option("--exclude", options.excluded, "names of clouds to draw no pairs from");
+  pcrb_tools::addThreadsOption(app, options.threads);
+  app.add_flag("--force", options.force, "replace problem files that this tool did not make");
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   CLI::App app(
       "Draws registration problems from a sequence: pairs evenly over overlap, perturbations about "
@@ -13,37 +63,13 @@ int main(int argc, char** argv) {
       "record the seed. Needs the matrix of compute_overlap.\n"
       "Example: sample_problems ~/pcrb/planetary/p2at_met --map box_map.pcd");
   pcrb_tools::SamplingOptions options;
-  const std::map<std::string, std::vector<pcrb::Kind>> kinds{
-      {"local", {pcrb::Kind::kLocal}},
-      {"global", {pcrb::Kind::kGlobal}},
-      {"both", {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}}};
-  const std::map<std::string, pcrb::BoundsSource> bounds{
-      {"measured", pcrb::BoundsSource::kMeasured}, {"note", pcrb::BoundsSource::kNote}};
-  std::string kind = "both";
-  std::string bounds_name = "measured";
-  app.add_option("folder", options.folder, "<root>/<data set>/<sequence>, a folder of .pcd files")
-      ->required();
-  app.add_option("--overlap", options.overlap, "file of the overlap matrix [<folder>_overlap.txt]");
-  app.add_option("--kind", kind, "kind of the problems: local, global or both [both]")
-      ->check(CLI::IsMember(kinds));
-  app.add_option("--seed", options.seed, "seed that the problems are drawn with")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--bounds", bounds_name,
-                 "bounds of the perturbations of the four published data sets: measured in the "
-                 "published problem files, or of upstream's note [measured]")
-      ->check(CLI::IsMember(bounds));
-  app.add_option(
-      "--map", options.map,
-      "name of a map that every cloud is posed against, without threshold and intervals");
-  app.add_option("--sequence", options.sequence,
-                 "name of the problems' sequence [the folder's; planetary_map with --map]");
-  app.add_option("--exclude", options.excluded, "names of clouds to draw no pairs from");
-  pcrb_tools::addThreadsOption(app, options.threads);
-  app.add_flag("--force", options.force, "replace problem files that this tool did not make");
+  Choices choices;
+  addOptions(app, options);
+  addChoices(app, choices);
   return pcrb_tools::runTool(app, argc, argv, [&] {
-    options.kinds = kinds.at(kind);
-    options.bounds = bounds.at(bounds_name);
+    options.kinds = kKinds.at(choices.kind);
+    options.bounds = kBounds.at(choices.bounds);
+    options.top_up = kTopUps.at(choices.top_up);
     runSamplingTool(options);
     return pcrb_tools::kSuccess;
   });

@@ -32,6 +32,16 @@ void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) 
       ->check(CLI::PositiveNumber)
       ->needs(sequence)
       ->capture_default_str();
+  app.add_option("--metres", tracking.metres,
+                 "length of path over which further relative errors are taken, m")
+      ->check(CLI::PositiveNumber)
+      ->needs(sequence)
+      ->capture_default_str();
+  app.add_option("--max-lost", tracking.max_lost,
+                 "fraction of the scans that may be without a pose; more, and the exit status is 1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->needs(sequence)
+      ->capture_default_str();
   app.add_flag("--align", tracking.align, "align the trajectory rigidly before the absolute errors")
       ->needs(sequence);
   app.add_option("--sensor-in-body", options.sensor_in_body,
@@ -89,8 +99,9 @@ int score(Options& options) {
     options.tracking.T_body_sensor =
         pcrb::makeTransform({s[0], s[1], s[2]}, Eigen::Quaterniond(s[6], s[3], s[4], s[5]));
   }
-  runTrackingScoring(options.tracking, std::cout);
-  return pcrb_tools::kSuccess;
+  if (runTrackingScoring(options.tracking, std::cout)) return pcrb_tools::kSuccess;
+  std::cerr << "score_poses: more scans were lost than --max-lost allows" << std::endl;
+  return pcrb_tools::kFailure;
 }
 
 }  // namespace

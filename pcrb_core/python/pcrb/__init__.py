@@ -61,6 +61,7 @@ def evaluate(source, T_residual):
         reply @ perturbation; the identity is perfect
     Returns a dict: error (eq. 1, dimensionless), rotation_error_rad (rad, 0 to pi), translation_error_m (m, at the
     source's centroid), mean_distance_m (m, mean distance between each point and its image).
+    Points are float32 near a local origin, as the server has them: errors differ from those in double by about 1e-9.
     Raises InvalidProblem if T_residual is not rigid, or no point carries weight.
     """
     return _pcrb.evaluate(_points(source, 'source'), _rows(T_residual, 'T_residual'))

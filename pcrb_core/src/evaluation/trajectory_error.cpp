@@ -36,6 +36,40 @@ bool determinesRotation(const Eigen::Matrix3d& covariance) {
   return values[1] > 1e-12 * values[0];
 }
 
+void requireLength(double metres) {
+  if (metres > 0.0 && std::isfinite(metres)) return;
+  throw InvalidParameter("trajectories: found a length of " + std::to_string(metres) +
+                         " m, expected one greater than 0");
+}
+
+/// m, of the way to each pose from the first.
+std::vector<double> pathLengths(const Poses& poses) {
+  std::vector<double> path{0.0};
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    path.push_back(path.back() + (poses[i].translation() - poses[i - 1].translation()).norm());
+  }
+  return path;
+}
+
+std::vector<double> kittiLengths(double path) {
+  constexpr int kLengths = 8;
+  double unit = 100.0;
+  while (unit * kLengths > path && unit > 1e-3) unit /= 10.0;
+  std::vector<double> lengths;
+  for (int i = 1; i <= kLengths; ++i) lengths.push_back(unit * i);
+  return lengths;
+}
+
+/// Of the motion between two poses: (Q_i^-1 Q_j)^-1 (P_i^-1 P_j).
+void addMotionError(const Poses& reference, const Poses& estimate, std::size_t i, std::size_t j,
+                    PoseErrors& errors) {
+  const Transform Q = reference[i].inverse() * reference[j];
+  const Transform P = estimate[i].inverse() * estimate[j];
+  const Transform E = Q.inverse() * P;
+  errors.translation.push_back(E.translation().norm());
+  errors.rotation.push_back(rotationAngle(E.linear()));
+}
+
 }  // namespace
 
 PoseErrors absolutePoseErrors(const Poses& reference, const Poses& estimate) {
@@ -54,13 +88,53 @@ PoseErrors relativePoseErrors(const Poses& reference, const Poses& estimate, std
   if (delta == 0) throw InvalidParameter("relative pose error: found a delta of 0, expected more");
   PoseErrors errors;
   for (std::size_t i = 0; i + delta < reference.size(); i += delta) {
-    const Transform Q = reference[i].inverse() * reference[i + delta];
-    const Transform P = estimate[i].inverse() * estimate[i + delta];
-    const Transform E = Q.inverse() * P;
-    errors.translation.push_back(E.translation().norm());
-    errors.rotation.push_back(rotationAngle(E.linear()));
+    addMotionError(reference, estimate, i, i + delta, errors);
   }
   return errors;
+}
+
+PoseErrors relativePoseErrorsOver(const Poses& reference, const Poses& estimate, double metres) {
+  requireMatching(reference, estimate);
+  requireLength(metres);
+  const std::vector<double> path = pathLengths(reference);
+  PoseErrors errors;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i] - path[first] < metres) continue;
+    addMotionError(reference, estimate, first, i, errors);
+    first = i;
+  }
+  return errors;
+}
+
+Drift drift(const Poses& reference, const Poses& estimate, std::vector<double> lengths,
+            std::size_t step) {
+  requireMatching(reference, estimate);
+  const std::vector<double> path = pathLengths(reference);
+  if (lengths.empty()) lengths = kittiLengths(path.back());
+  for (const double length : lengths) requireLength(length);
+  constexpr std::size_t kKittiStep = 10;
+  if (step == 0) step = reference.size() < 10 * kKittiStep ? 1 : kKittiStep;
+  Drift result;
+  result.lengths = lengths;
+  double translation = 0.0;
+  double rotation = 0.0;
+  for (std::size_t first = 0; first < path.size(); first += step) {
+    for (const double length : lengths) {
+      const auto last = std::upper_bound(path.begin(), path.end(), path[first] + length);
+      if (last == path.end()) continue;
+      PoseErrors error;
+      addMotionError(reference, estimate, first, static_cast<std::size_t>(last - path.begin()),
+                     error);
+      translation += error.translation.back() / length;
+      rotation += error.rotation.back() / length;
+      ++result.segments;
+    }
+  }
+  const double n = static_cast<double>(result.segments);  // 0 / 0 is NaN
+  result.translation_percent = 100.0 * translation / n;
+  result.rotation_degrees_per_metre = rotation / n * 180.0 / M_PI;
+  return result;
 }
 
 Poses alignToReference(const Poses& reference, const Poses& estimate) {

@@ -13,17 +13,22 @@ namespace {
 /// The pairs of the ten intervals, those drawn in this round and those that are left.
 class Intervals {
  public:
-  explicit Intervals(const std::vector<CloudPair>& pairs) {
+  /// @param quota  pairs of each interval that come from it alone where it has them.
+  Intervals(const std::vector<CloudPair>& pairs, std::size_t quota, TopUp top_up)
+      : quota_(quota), top_up_(top_up) {
     const std::vector<std::size_t> interval = overlapIntervals(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) left_[interval[i]].push_back(i);
     all_ = left_;
   }
 
   /// Takes a random pair of the interval with the fewest drawn pairs among those that have some
-  /// left.
+  /// left; beyond the quota, with TopUp::kPaper, of all that are left.
   void draw(Random& random) {
     if (emptiest() == kOverlapIntervals) left_ = all_;
-    const std::size_t interval = emptiest();
+    std::size_t interval = emptiest();
+    if (top_up_ == TopUp::kPaper && drawn_[interval].size() >= quota_) {
+      interval = intervalOfAnyLeft(random);
+    }
     std::vector<std::size_t>& left = left_[interval];
     std::swap(left[static_cast<std::size_t>(random.below(left.size()))], left.back());
     drawn_[interval].push_back(left.back());
@@ -43,6 +48,18 @@ class Intervals {
     return found;
   }
 
+  /// Each pair that is left counts once.
+  std::size_t intervalOfAnyLeft(Random& random) const {
+    std::size_t count = 0;
+    for (const auto& left : left_) count += left.size();
+    auto place = static_cast<std::size_t>(random.below(count));
+    std::size_t interval = 0;
+    while (place >= left_[interval].size()) place -= left_[interval++].size();
+    return interval;
+  }
+
+  std::size_t quota_;
+  TopUp top_up_;
   std::array<std::vector<std::size_t>, kOverlapIntervals> all_;
   std::array<std::vector<std::size_t>, kOverlapIntervals> left_;
   std::array<std::vector<std::size_t>, kOverlapIntervals> drawn_;
@@ -85,8 +102,8 @@ std::vector<std::size_t> overlapIntervals(const std::vector<CloudPair>& pairs) {
 }
 
 std::vector<CloudPair> samplePairs(const std::vector<CloudPair>& eligible, std::size_t count,
-                                   Random& random) {
-  Intervals intervals(eligible);
+                                   Random& random, TopUp top_up) {
+  Intervals intervals(eligible, count / kOverlapIntervals, top_up);
   for (std::size_t i = 0; i < count; ++i) intervals.draw(random);
   std::vector<CloudPair> sample;
   sample.reserve(count);

@@ -61,6 +61,12 @@ struct Surface {
   Covariances covariances;
 };
 
+Eigen::Matrix3d skewMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
 /// PCL's optimiser for one set of correspondences.
 class Optimizer : public PclGicp {
  public:
@@ -115,6 +121,7 @@ class Alignment {
     result.T_target_source =
         Eigen::Translation3d(center_) * Transform(T) * Eigen::Translation3d(-center_) * guess_;
     result.T_target_source.linear() = nearestRotation(result.T_target_source.linear());
+    result.covariance = covarianceOf(T);
     return result;
   }
 
@@ -154,6 +161,35 @@ class Alignment {
     pcl::Correspondences kept;
     rejector_.getRemainingCorrespondences(all, kept);
     return kept;
+  }
+
+  /// Of the pose, from the curvature of the cost at its minimum and the size of what is left of it,
+  /// as of independent errors of the pairs: they are not, so that it is too small.
+  std::optional<PoseCovariance> covarianceOf(const Eigen::Matrix4d& T) {
+    using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+    const pcl::Correspondences pairs = associate(T);
+    if (pairs.size() < 4) return std::nullopt;
+    const Covariances information = informationOf(pairs, T);
+    const Transform moved_by(T);
+    Matrix6 curvature = Matrix6::Zero();
+    double cost = 0.0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto& p = moved_[static_cast<std::size_t>(pairs[i].index_query)];
+      const auto& q = target_.tree.points()[static_cast<std::size_t>(pairs[i].index_match)];
+      const Eigen::Vector3d arm = moved_by.linear() * p.getVector3fMap().cast<double>();
+      const Eigen::Vector3d left = q.cast<double>() - center_ - arm - moved_by.translation();
+      Eigen::Matrix<double, 3, 6> J;  // d(T p) = dt + dθ × arm
+      J << Eigen::Matrix3d::Identity(), skewMatrix(-arm);
+      curvature += J.transpose() * information[i] * J;
+      cost += left.dot(information[i] * left);
+    }
+    const Eigen::LDLT<Matrix6> inverse(curvature);
+    if (!inverse.isPositive() || inverse.rcond() < 1e-15) return std::nullopt;
+    const double variance = cost / (3.0 * static_cast<double>(pairs.size()) - 6.0);
+    PoseCovariance covariance{};
+    const Matrix6 C = variance * inverse.solve(Matrix6::Identity().eval());
+    Eigen::Map<Matrix6>(covariance.data()) = (C + C.transpose()) / 2.0;
+    return mountedCovariance(covariance, moved_by, Eigen::Translation3d(-center_) * guess_);
   }
 
   Covariances informationOf(const pcl::Correspondences& pairs, const Eigen::Matrix4d& T) const {

@@ -3,11 +3,11 @@
 // test for convergence takes the translation at the frame's origin, not at the source's centroid.
 
 #include <pcl/common/transforms.h>
-#include <pcl/console/print.h>
 #include <pcl/registration/ndt.h>
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "pcrb_core/registration/registry.hpp"
 #include "registration/pcl_common.hpp"
@@ -23,7 +23,9 @@ constexpr std::size_t kMinNdtPoints = 10;
 struct NdtParameters {
   explicit NdtParameters(ParameterReader& reader)
       : voxel_leaf(reader.positive("voxel_leaf", 0.2)),
+        levels(reader.integer("levels", 1, 1, 10)),
         filter_source(reader.boolean("filter_source", true)),
+        source_leaf(reader.number("source_leaf", 0.0, 0.0)),
         max_step(reader.positive("max_step", 0.1)),
         outlier_ratio(reader.number("outlier_ratio", 0.55, 0.01, 0.99)),
         min_points_per_cell(reader.integer("min_points_per_cell", 6, 3)),
@@ -32,25 +34,19 @@ struct NdtParameters {
     reader.threads();  // accepted as with every method; PCL's NDT runs on one core
   }
 
-  double voxel_leaf;           ///< m, edge of the target's cells
-  bool filter_source;          ///< through a voxel grid of the same leaf
+  /// Edge of the target's cells at a level, 0 being the finest; m.
+  double leafOf(int level) const { return voxel_leaf * std::pow(2.0, level); }
+  double leafOfSource() const { return source_leaf > 0.0 ? source_leaf : voxel_leaf; }
+
+  double voxel_leaf;           ///< m, edge of the target's smallest cells
+  int levels;                  ///< sizes of cells, each twice the next one
+  bool filter_source;          ///< through a voxel grid
+  double source_leaf;          ///< m, of that voxel grid; 0 = voxel_leaf
   double max_step;             ///< of the line search: norm of (m, rad) at most
   double outlier_ratio;        ///< part of the points that the mixture takes for outliers
   int min_points_per_cell;     ///< cells with fewer have no distribution
   int max_iterations;          ///< then the method stops unconverged
   double translation_epsilon;  ///< m, at the source's centroid; a smaller step is convergence
-};
-
-/// PCL prints warnings about single cells; the library prints nothing.
-class QuietPcl {
- public:
-  QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
-  ~QuietPcl() { pcl::console::setVerbosityLevel(level_); }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl& operator=(const QuietPcl&) = delete;
-
- private:
-  pcl::console::VERBOSITY_LEVEL level_ = pcl::console::getVerbosityLevel();
 };
 
 #if PCL_VERSION_COMPARE(>=, 1, 13, 0)
@@ -61,15 +57,16 @@ using PclNdtBase = pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXY
 
 class PclNdt : public PclNdtBase {
  public:
-  PclNdt(const NdtParameters& parameters, const Points& target) : parameters_(parameters) {
+  PclNdt(const NdtParameters& parameters, double leaf, const Points& target)
+      : parameters_(parameters) {
     const QuietPcl quiet;
-    setResolution(static_cast<float>(parameters.voxel_leaf));
+    setResolution(static_cast<float>(leaf));
     target_cells_.setMinPointPerVoxel(parameters.min_points_per_cell);
     outlier_ratio_ = parameters.outlier_ratio;  // whose setter has two spellings
     setInputTarget(toPcl(target));
     if (target_cells_.getCentroids() == nullptr || target_cells_.getCentroids()->empty()) {
-      throw InvalidProblem("target: found no cell of " + std::to_string(parameters.voxel_leaf) +
-                           " m with " + std::to_string(parameters.min_points_per_cell) +
+      throw InvalidProblem("target: found no cell of " + std::to_string(leaf) + " m with " +
+                           std::to_string(parameters.min_points_per_cell) +
                            " points (or more cells than PCL can number), expected at least one");
     }
   }
@@ -161,20 +158,31 @@ class Ndt : public Registration {
  protected:
   void prepareTarget(const PointCloud& target) override {
     requirePoints(target.points, kMinNdtPoints, "target");
-    ndt_ = std::make_unique<PclNdt>(parameters_, target.points);
+    from_coarse_to_fine_.clear();
+    for (int level = parameters_.levels - 1; level >= 0; --level) {
+      from_coarse_to_fine_.push_back(
+          std::make_unique<PclNdt>(parameters_, parameters_.leafOf(level), target.points));
+    }
   }
 
   RegistrationResult alignSource(const PointCloud& source, const Transform& guess) override {
     const Points points = parameters_.filter_source
-                              ? voxelGrid(source.points, parameters_.voxel_leaf)
+                              ? voxelGrid(source.points, parameters_.leafOfSource())
                               : source.points;
     requirePoints(points, kMinNdtPoints, "source");
-    return ndt_->run(points, guess);
+    RegistrationResult result;
+    result.T_target_source = guess;
+    for (const auto& ndt : from_coarse_to_fine_) {
+      const int iterations = result.iterations;
+      result = ndt->run(points, result.T_target_source);
+      result.iterations += iterations;
+    }
+    return result;
   }
 
  private:
   NdtParameters parameters_;
-  std::unique_ptr<PclNdt> ndt_;
+  std::vector<std::unique_ptr<PclNdt>> from_coarse_to_fine_;
 };
 
 PCRB_REGISTER_METHOD("ndt", Ndt)

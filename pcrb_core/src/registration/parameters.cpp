@@ -16,6 +16,8 @@ namespace pcrb {
 namespace {
 
 constexpr int kMaxThreads = 256;
+constexpr const char* kMethod = "method";
+constexpr const char* kOfTheDataSet = "data_set";
 
 template <class Number>
 std::string describeRange(const char* type, Number min, Number max) {
@@ -25,6 +27,13 @@ std::string describeRange(const char* type, Number min, Number max) {
   if (has_min) text += (has_max ? " from " : " of at least ") + formatShortest(min);
   if (has_max) text += (has_min ? " to " : " of at most ") + formatShortest(max);
   return text;
+}
+
+/// Whether a parameter is the edge of a voxel grid's cells.
+bool isLeaf(const std::string& name) {
+  const std::string ending = "_leaf";
+  return name.size() > ending.size() &&
+         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
 class ParameterFile {
@@ -72,6 +81,10 @@ class ParameterFile {
       }
       if (entry.second.IsScalar()) {
         values[name] = entry.second.Scalar();
+        if (values[name] == kOfTheDataSet && !isLeaf(name)) {
+          refuse(entry.first.Mark(), inQuotes(name) + " as the data set has it",
+                 "a value: a data set has leaves only");
+        }
       } else if (!maps_allowed || !entry.second.IsMap()) {
         refuse(entry.first.Mark(), inQuotes(name) + " without a single value",
                maps_allowed ? "a value, or a map with the values of a data set" : "a value");
@@ -176,9 +189,21 @@ void ParameterReader::check(const std::string& method) const {
 
 MethodParameters::MethodParameters(const std::string& path) {
   ParameterFile(path).read(values_, overrides_);
+  const auto method = values_.find(kMethod);
+  if (method == values_.end()) return;
+  method_ = method->second;
+  values_.erase(method);
 }
 
-Parameters MethodParameters::of(const std::string& data_set) const {
+Parameters MethodParameters::of(const std::string& data_set, double voxel_leaf) const {
+  Parameters parameters = asWritten(data_set);
+  for (auto& [name, value] : parameters) {
+    if (value == kOfTheDataSet) value = formatShortest(voxel_leaf);
+  }
+  return parameters;
+}
+
+Parameters MethodParameters::asWritten(const std::string& data_set) const {
   Parameters parameters = values_;
   const auto found = overrides_.find(data_set);
   if (found == overrides_.end()) return parameters;

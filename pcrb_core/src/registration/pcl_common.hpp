@@ -2,6 +2,7 @@
 
 // What the methods on PCL share. Slow to compile: for their .cpp files only.
 
+#include <pcl/console/print.h>
 #include <pcl/correspondence.h>
 #include <pcl/pcl_config.h>
 #include <pcl/point_cloud.h>
@@ -24,6 +25,18 @@ using PclScalar = double;
 using PclScalar = float;
 #endif
 using PclMatrix4 = Eigen::Matrix<PclScalar, 4, 4>;
+
+/// PCL prints warnings about single cells; the library prints nothing.
+class QuietPcl {
+ public:
+  QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
+  ~QuietPcl() { pcl::console::setVerbosityLevel(level_); }
+  QuietPcl(const QuietPcl&) = delete;
+  QuietPcl& operator=(const QuietPcl&) = delete;
+
+ private:
+  pcl::console::VERBOSITY_LEVEL level_ = pcl::console::getVerbosityLevel();
+};
 
 PclCloud::Ptr toPcl(const Points& points);
 

@@ -70,6 +70,11 @@ RegistrationResult Registration::align(const PointCloud& source,
   }
   RegistrationResult result = alignSource(moved(source, working_origin_),
                                           inLocalFrame(T_target_source_guess, working_origin_));
+  if (result.covariance) {
+    // Of the position of another frame: that of the target as given, seen from the working origin.
+    result.covariance = mountedCovariance(*result.covariance, result.T_target_source,
+                                          Transform(Eigen::Translation3d(-working_origin_)));
+  }
   result.T_target_source = inLocalFrame(result.T_target_source, -working_origin_);
   try {
     requireRigid(result.T_target_source.matrix().topRows<3>());

@@ -74,6 +74,7 @@ RunInfo RunInfo::of(const RunConfiguration& configuration, const RunPlan& plan) 
   info.code_version = PCRB_VERSION;
   info.problem_files = plan.problem_files;
   info.drawn_by = plan.drawn_by;
+  info.voxel_leaves = plan.voxel_leaves;
   info.problems = plan.problems.size();
   return info;
 }
@@ -128,8 +129,8 @@ std::vector<RunInfo::Difference> RunInfo::differences(const RunInfo& other, Scop
     if (!isCompared(roleOfRunKey(key), scope)) continue;
     Difference difference{key, valueOfKey(table_here, key), valueOfKey(table_there, key)};
     const NamedRunTableRows* rows = findNamedRunTableRows(key);
-    const bool is_cloud = rows != nullptr && rows->member == &RunInfo::clouds;
-    if (is_cloud && (!difference.here || !difference.there)) continue;  // only one has used it
+    const bool may_lack = rows != nullptr && rows->may_lack;
+    if (may_lack && (!difference.here || !difference.there)) continue;
     if (difference.here == difference.there) continue;
     keepDifferentLines(difference);
     differences.push_back(std::move(difference));

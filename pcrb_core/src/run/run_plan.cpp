@@ -89,6 +89,7 @@ RunPlan makeRunPlan(const ProblemSelection& selection) {
     if (!data_set) {
       data_set = std::make_shared<Dataset>(loadDataset(selection.root, files.data_set));
     }
+    plan.voxel_leaves[files.data_set] = formatShortest(data_set->voxel_leaf);
     addProblems(files, data_set, plan.problems);
     noteFile(files, plan);
   }

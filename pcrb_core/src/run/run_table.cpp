@@ -201,7 +201,9 @@ const std::vector<NamedRunTableRows>& namedRunTableRows() {
   static const std::vector<NamedRunTableRows> rows = {
       {"problem_file ", RunKeyRole::kConfiguration, &RunInfo::problem_files},
       {"drawn_by ", RunKeyRole::kRecorded, &RunInfo::drawn_by},
-      {"cloud ", RunKeyRole::kRecorded, &RunInfo::clouds}};
+      {"voxel_leaf ", RunKeyRole::kConfiguration, &RunInfo::voxel_leaves,
+       true},                                                      // none in old runs
+      {"cloud ", RunKeyRole::kRecorded, &RunInfo::clouds, true}};  // of those used so far
   return rows;
 }
 

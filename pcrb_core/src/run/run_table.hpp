@@ -31,6 +31,7 @@ struct NamedRunTableRows {
   std::string prefix;  ///< the word and the blank
   RunKeyRole role;
   std::map<std::string, std::string> RunInfo::*member;
+  bool may_lack = false;  ///< whether a key that only one of two tables has is no difference
 };
 
 /// All rows of the first kind, and of the second.

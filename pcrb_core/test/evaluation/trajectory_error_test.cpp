@@ -109,6 +109,52 @@ TEST(TrajectoryError, AlignmentRefusesALine) {
   EXPECT_THROW(alignToReference(line, line), InvalidParameter);
 }
 
+/// Poses every metre along x; those of the estimate are `scale` apart and turn by `yaw` each.
+Poses straight(std::size_t count, double scale, double yaw) {
+  Poses poses{Transform::Identity()};
+  while (poses.size() < count) {
+    Transform motion(Eigen::Translation3d(scale, 0.0, 0.0));
+    motion.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+    poses.push_back(poses.back() * motion);
+  }
+  return poses;
+}
+
+TEST(TrajectoryError, RelativeErrorsOverMetresFollowThePath) {
+  const PoseErrors errors =
+      relativePoseErrorsOver(straight(11, 1.0, 0.0), straight(11, 1.1, 0.0), 2.5);
+  ASSERT_EQ(errors.translation.size(), 3u);  // from 0 to 3, 6 and 9 m
+  for (const double error : errors.translation) EXPECT_NEAR(error, 0.3, 1e-9);
+  EXPECT_TRUE(relativePoseErrorsOver(straight(3, 1, 0), straight(3, 1, 0), 9).rotation.empty());
+  EXPECT_THROW(relativePoseErrorsOver(straight(3, 1, 0), straight(3, 1, 0), 0), InvalidParameter);
+}
+
+TEST(TrajectoryError, DriftIsThatOfKitti) {
+  // 5 % too long: a segment over more than L metres is ceil of L + 1 poses long, as the devkit's.
+  const Poses truth = straight(1001, 1.0, 0.0);
+  const Drift translation = drift(truth, straight(1001, 1.05, 0.0));
+  EXPECT_EQ(translation.lengths, (std::vector<double>{100, 200, 300, 400, 500, 600, 700, 800}));
+  std::size_t segments = 0;
+  double sum = 0.0;
+  for (int first = 0; first <= 1000; first += 10) {
+    for (int length = 100; length <= 800; length += 100) {
+      if (first + length + 1 > 1000) continue;
+      sum += 0.05 * (length + 1) / length;
+      ++segments;
+    }
+  }
+  EXPECT_EQ(translation.segments, segments);
+  EXPECT_NEAR(translation.translation_percent, 100.0 * sum / static_cast<double>(segments), 1e-9);
+  const Drift rotation = drift(truth, straight(1001, 1.0, 0.001 / kDegree));
+  EXPECT_NEAR(rotation.rotation_degrees_per_metre, 0.001, 2e-5);
+  const Drift shorter = drift(straight(91, 1.0, 0.0), straight(91, 1.05, 0.0));
+  EXPECT_EQ(shorter.lengths.front(), 10.0) << "a tenth of KITTI's";
+  EXPECT_EQ(shorter.lengths.back(), 80.0);
+  EXPECT_EQ(drift(straight(2, 1, 0), straight(2, 1, 0), {5.0}).segments, 0u);
+  EXPECT_TRUE(std::isnan(drift(straight(2, 1, 0), straight(2, 1, 0), {5.0}).translation_percent));
+  EXPECT_THROW(drift(truth, truth, {-1.0}), InvalidParameter);
+}
+
 TEST(TrajectoryError, RefusesTrajectoriesThatDoNotMatch) {
   const Poses truth = posesOf(kTruth);
   EXPECT_THROW(absolutePoseErrors(truth, Poses(8, Transform::Identity())), InvalidParameter);

@@ -84,6 +84,37 @@ TEST(PairSampling, TopsUpADryIntervalEvenlyWithPairsNotYetTaken) {
             (std::vector<std::size_t>{1, 0, 14, 14, 14, 14, 14, 14, 14, 1}));
 }
 
+TEST(PairSampling, TopsUpFromAllThatIsLeftAsThePaperDoes) {
+  std::vector<CloudPair> eligible{{"low", "t", 0.4}, {"high", "t", 0.9}};
+  for (const double middle : {0.475, 0.525, 0.575, 0.625, 0.675, 0.725, 0.775, 0.825}) {
+    const std::size_t n = middle > 0.6 && middle < 0.65 ? 2000 : 20;
+    for (std::size_t i = 0; i < n; ++i) {
+      eligible.push_back({std::to_string(middle) + " " + std::to_string(i), "t", middle});
+    }
+  }
+  Random random(8);
+  const auto sample = samplePairs(eligible, 100, random, TopUp::kPaper);
+  EXPECT_EQ(countByName(sample).size(), 100U);
+  const auto counts = coverage(eligible, sample);
+  EXPECT_EQ(counts.front(), 1U);
+  EXPECT_EQ(counts.back(), 1U);
+  for (std::size_t i = 1; i < 9; ++i) EXPECT_GE(counts[i], 10U) << i;
+  EXPECT_GE(counts[4], 24U) << "nearly all of the 18 that lack are of the dense interval";
+  const auto few = samplePairs(evenPairs(37, 0.4, 0.9), 100, random, TopUp::kPaper);
+  EXPECT_EQ(countByName(few).size(), 37U);
+}
+
+TEST(PairSampling, DrawsTheSameWhereNothingLacks) {
+  const std::vector<CloudPair> eligible = evenPairs(1000, 0.4, 0.95);
+  const auto namesOf = [&](TopUp top_up) {
+    Random random(7);
+    std::string names;
+    for (const CloudPair& pair : samplePairs(eligible, 100, random, top_up)) names += nameOf(pair);
+    return names;
+  };
+  EXPECT_EQ(namesOf(TopUp::kEven), namesOf(TopUp::kPaper));
+}
+
 TEST(PairSampling, RepeatsOnlyWhenPairsAreTooFewAndThenAllAlike) {
   const std::vector<CloudPair> eligible = evenPairs(37, 0.4, 0.9);
   Random random(9);

@@ -83,7 +83,7 @@ class MethodFile : public Test {
   }
   std::string refusalOf(const std::string& text) {
     const std::string path = write(text);
-    return messageOf([&] { MethodParameters(path).of("tum"); });
+    return messageOf([&] { MethodParameters(path).of("tum", 0.1); });
   }
 
   pcrb_test::TemporaryFolder folder_;
@@ -91,15 +91,32 @@ class MethodFile : public Test {
 
 TEST_F(MethodFile, GivesADataSetItsOwnValues) {
   const auto path = write("voxel_leaf: 0.2  # m\nseed: 1\ntum: {voxel_leaf: 0.1}\n");
-  EXPECT_EQ(MethodParameters(path).of("eth"), (Parameters{{"voxel_leaf", "0.2"}, {"seed", "1"}}));
-  EXPECT_EQ(MethodParameters(path).of("tum"), (Parameters{{"voxel_leaf", "0.1"}, {"seed", "1"}}));
+  EXPECT_EQ(MethodParameters(path).of("eth", 0.3),
+            (Parameters{{"voxel_leaf", "0.2"}, {"seed", "1"}}));
+  EXPECT_EQ(MethodParameters(path).of("tum", 0.3),
+            (Parameters{{"voxel_leaf", "0.1"}, {"seed", "1"}}));
+}
+
+TEST_F(MethodFile, TakesTheVoxelLeafOfTheDataSetWhereItSaysSo) {
+  const MethodParameters file(write("voxel_leaf: data_set\nseed: 1\ntum: {voxel_leaf: 0.3}\n"));
+  EXPECT_EQ(file.of("mine", 0.05), (Parameters{{"voxel_leaf", "0.05"}, {"seed", "1"}}));
+  EXPECT_EQ(file.of("tum", 0.05).at("voxel_leaf"), "0.3");
+  EXPECT_EQ(file.asWritten("mine").at("voxel_leaf"), "data_set");
+  EXPECT_EQ(MethodParameters(write("seed: 1\n")).of("mine", 0.05), (Parameters{{"seed", "1"}}));
+}
+
+TEST_F(MethodFile, MaySayWhichMethodItIsFor) {
+  const MethodParameters file(write("method: ndt\nsource_leaf: data_set\n"));
+  EXPECT_EQ(file.method(), "ndt");
+  EXPECT_EQ(file.of("mine", 0.05), (Parameters{{"source_leaf", "0.05"}}));
+  EXPECT_EQ(MethodParameters(write("seed: 1\n")).method(), "");
 }
 
 TEST_F(MethodFile, KeepsWhatItReadWhenTheFileChanges) {
   const MethodParameters parameters(write("seed: 1\ntum: {seed: 2}\neth: {seed: 3}\n"));
   write("seed: 4\n");
-  EXPECT_EQ(parameters.of("kaist"), (Parameters{{"seed", "1"}}));
-  EXPECT_EQ(parameters.of("tum"), (Parameters{{"seed", "2"}}));
+  EXPECT_EQ(parameters.of("kaist", 0.2), (Parameters{{"seed", "1"}}));
+  EXPECT_EQ(parameters.of("tum", 0.2), (Parameters{{"seed", "2"}}));
   EXPECT_EQ(parameters.dataSets(), (std::vector<std::string>{"eth", "tum"}));
 }
 
@@ -110,9 +127,10 @@ TEST_F(MethodFile, RefusesMistakesWithTheirLine) {
   expectIn(refusalOf("a: 1\ntum: {a: {b: 1}}\n"), "method.yaml:2: found 'a' without");
   expectIn(refusalOf("a: 1\n\neth: {b: 2}\n"), "method.yaml:3: found 'b' for one data set only");
   expectIn(refusalOf("a: 1\n b: : 2\n"), "method.yaml:2: found");
+  expectIn(refusalOf("a: 1\nmax_step: data_set\n"), "method.yaml:2: found 'max_step' as the data");
   expectIn(refusalOf("just text\n"), "expected lines of `name: value`");
   expectIn(refusalOf(""), "expected lines of `name: value`");
-  EXPECT_THROW(MethodParameters(folder_.file("absent.yaml")).of("tum"), InvalidFile);
+  EXPECT_THROW(MethodParameters(folder_.file("absent.yaml")).of("tum", 0.1), InvalidFile);
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ TEST(Ppcr, HasTheTextsParametersInAFileOfTheirOwn) {
       std::string(PCRB_SOURCE_DIR) + "/../launch/config/methods/ppcr_text.yaml";
   Parameters expected = registrationDefaults("ppcr");
   expected["neighbors"] = "20";
-  EXPECT_EQ(MethodParameters(path).of("eth"), expected);
+  EXPECT_EQ(MethodParameters(path).of("eth", 0.2), expected);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ RunInfo someInfo() {
   info.code_version = "0.1.0";
   info.problem_files = {{"eth/plain_local.txt", "11"}};
   info.drawn_by = {{"eth/plain_local.txt", "sample_problems"}};
+  info.voxel_leaves = {{"eth", "0.2"}};
   info.clouds = {{"eth/plain/a b.pcd", "22"}};
   info.secret = Secret::fromHex(kHex);
   info.created = 1.5;
@@ -81,7 +82,8 @@ TEST(RunInfo, IsTheTableThatRunsHave) {
                        {"subset", "30"},
                        {"time_limit", "0.1"},
                        {"under_test", "my node"},
-                       {"upright", "true"}};
+                       {"upright", "true"},
+                       {"voxel_leaf eth", "0.2"}};
   EXPECT_EQ(someInfo().write(), expected);
   EXPECT_EQ(RunInfo::read(expected, "store").write(), expected);
 }
@@ -148,6 +150,15 @@ TEST(RunInfo, ComparesOfARunThatGoesOnItsConfigurationProblemFilesAndShard) {
   EXPECT_EQ(differences[2].there, "5");
   EXPECT_EQ(keysOf(someInfo().differences(other, Scope::kClient)),
             std::vector<std::string>{"client"});
+}
+
+TEST(RunInfo, GoesOnWithTheSameVoxelLeafAndWhereAnOlderRunHasNone) {
+  RunInfo other = someInfo();
+  other.voxel_leaves = {{"eth", "0.1"}};
+  EXPECT_EQ(keysOf(someInfo().differences(other, Scope::kResume)),
+            std::vector<std::string>{"voxel_leaf eth"});
+  other.voxel_leaves.clear();
+  EXPECT_TRUE(someInfo().differences(other, Scope::kResume).empty());
 }
 
 TEST(RunInfo, ComparesOfShardsAllButWhatTellsThemApart) {

@@ -35,6 +35,7 @@ TEST_F(RunPlanTest, HasTheRowsOfTheSelectedFilesWithTheirCloudsAndHashes) {
   ASSERT_EQ(hall.problem_files.size(), 1u);
   EXPECT_EQ(hall.problem_files.begin()->first, "rooms/hall_local.txt");
   EXPECT_TRUE(hall.drawn_by.empty());
+  EXPECT_EQ(hall.voxel_leaves, (std::map<std::string, std::string>{{"rooms", "0.2"}}));
 }
 
 TEST_F(RunPlanTest, TakesTheKindsAndSequencesThatAreAskedFor) {

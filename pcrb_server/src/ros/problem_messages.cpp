@@ -22,6 +22,7 @@ pcrb_msgs::Problem problemMessage(const PosedProblem& posed, const Announcement&
   problem.header = makeHeader(frames.map, announcement.stamp);
   problem.problem_id = announcement.problem_id;
   problem.data_set = posed.planned->key.data_set;
+  problem.voxel_leaf = posed.planned->data_set->voxel_leaf;
   problem.kind = kindNumber(posed.planned->key.kind);
   problem.presentation = static_cast<std::uint8_t>(
       is_localization ? pcrb_msgs::Problem::LOCALIZATION : pcrb_msgs::Problem::REGISTRATION);

@@ -5,6 +5,8 @@
 #include <ros/package.h>
 #include <ros/param.h>
 
+#include <filesystem>
+
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/registration/registry.hpp"
@@ -49,27 +51,31 @@ MethodChoice::MethodChoice(pcrb::NodeParameters& reader)
   reader.allowOwnParameter(kInEffect);
   reader.check([this] {
     if (!plugin_.empty()) pcrb::loadRegistrationLibrary(plugin_);
-    pcrb::registrationDefaults(method_);  // an unknown method has no file, either
+    if (!std::filesystem::exists(file_)) pcrb::registrationDefaults(method_);  // is it unknown?
     parameters_.emplace(file_);
+    if (!parameters_->method().empty()) method_ = parameters_->method();
     check();
   });
 }
 
 void MethodChoice::check() const {
-  make("");
-  for (const auto& data_set : parameters_->dataSets()) make(data_set);
+  const double any_leaf = 1.0;
+  make("", any_leaf);
+  for (const auto& data_set : parameters_->dataSets()) make(data_set, any_leaf);
 }
 
-std::unique_ptr<pcrb::Registration> MethodChoice::make(const std::string& data_set) const {
-  return pcrb::makeRegistration(method_, parameters_->of(data_set));
+std::unique_ptr<pcrb::Registration> MethodChoice::make(const std::string& data_set,
+                                                       double voxel_leaf) const {
+  return pcrb::makeRegistration(method_, parameters_->of(data_set, voxel_leaf));
 }
 
 std::string MethodChoice::inEffect() const {
   std::string text = "\n";
-  const pcrb::Parameters common = completed(method_, parameters_->of(""));
+  if (!parameters_->method().empty()) text += "method: " + method_ + "\n";
+  const pcrb::Parameters common = completed(method_, parameters_->asWritten(""));
   for (const auto& [name, value] : common) text += name + ": " + value + "\n";
   for (const auto& data_set : parameters_->dataSets()) {
-    for (const auto& [name, value] : parameters_->of(data_set)) {
+    for (const auto& [name, value] : parameters_->asWritten(data_set)) {
       if (common.at(name) != value) text += data_set + "/" + name + ": " + value + "\n";
     }
   }

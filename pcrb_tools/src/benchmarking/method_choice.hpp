@@ -19,7 +19,8 @@ class MethodChoice {
   explicit MethodChoice(pcrb::NodeParameters& reader);
 
   /// The method with the parameters of a data set.
-  std::unique_ptr<pcrb::Registration> make(const std::string& data_set) const;
+  /// @param voxel_leaf  m, of the data set.
+  std::unique_ptr<pcrb::Registration> make(const std::string& data_set, double voxel_leaf) const;
 
   /// Sets the node's parameter ~in_effect to what the results depend on, so that the server, which
   /// compares the parameters of a run's client, sees an edited file or a rebuilt plugin. One

@@ -30,14 +30,28 @@ const std::array<Experiment, 7> kExperiments{{{"icp", "local"},
                                               {"fgr", "global"},
                                               {"teaser", "global"}}};
 
+/// What a reader may want beside them: the paper's baselines as they were probably run, NDT with
+/// cells that work, and nothing at all (docs/methods.md).
+const std::array<Experiment, 7> kBaselines{{{"icp_pcl", "local"},
+                                            {"gicp_pcl", "local"},
+                                            {"ndt_pcl", "local"},
+                                            {"ndt_1m", "local"},
+                                            {"ndt_coarse_to_fine", "local"},
+                                            {"ppcr_text", "local"},
+                                            {"do_nothing", "both"}}};
+
 Experiment experimentOf(const std::string& method, const PaperOptions& options) {
-  const auto* found = std::find_if(kExperiments.begin(), kExperiments.end(),
-                                   [&](const Experiment& e) { return e.method == method; });
+  const auto is_it = [&](const Experiment& e) { return e.method == method; };
+  const auto* found = std::find_if(kExperiments.begin(), kExperiments.end(), is_it);
   if (found != kExperiments.end()) return *found;
+  const auto* baseline = std::find_if(kBaselines.begin(), kBaselines.end(), is_it);
+  if (baseline != kBaselines.end()) return *baseline;
   if (!options.plugin.empty()) return {method, options.kind, true};
   throw pcrb::InvalidParameter(
       "found method `" + method +
-      "`, expected icp, gicp, ndt, ppcr, ransac, fgr or teaser, or a plugin that has it");
+      "`, expected icp, gicp, ndt, ppcr, ransac, fgr or teaser, one of the baselines (icp_pcl, "
+      "gicp_pcl, ndt_pcl, ndt_1m, ndt_coarse_to_fine, ppcr_text, do_nothing), or a plugin that "
+      "has it");
 }
 
 std::vector<Experiment> chosen(const PaperOptions& options) {
@@ -87,6 +101,7 @@ std::vector<std::string> completeRuns(const PaperOptions& options,
                                       const std::vector<Experiment>& experiments,
                                       const std::vector<std::string>& failed) {
   std::vector<std::string> methods = paperMethods();
+  for (const Experiment& baseline : kBaselines) methods.push_back(baseline.method);
   for (const Experiment& experiment : experiments) {
     if (experiment.is_own) methods.push_back(experiment.method);
   }

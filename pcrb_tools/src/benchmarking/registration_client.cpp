@@ -1,5 +1,6 @@
 #include "benchmarking/registration_client.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pcrb_core/error.hpp"
@@ -25,7 +26,7 @@ bool RegistrationClient::prepareTarget() {
   if (!target) return false;
   if (data_set_ == problem->data_set && prepared_stamp_ == problem->target_stamp) return true;
   if (!method_ || data_set_ != problem->data_set) {
-    method_ = make_method_(problem->data_set);
+    method_ = make_method_(*problem);
     data_set_ = problem->data_set;
   }
   prepared_stamp_ = problem->target_stamp;
@@ -77,6 +78,10 @@ void RegistrationClient::align(pcrb_msgs::SubmitPose::Request& reply) {
   reply.pose.header = problem->header;
   reply.pose.pose = pcrb::toMessage(result.T_target_source);
   reply.solver_time = result.solver_time;
+  if (result.covariance) {
+    reply.has_covariance = 1;
+    std::copy(result.covariance->begin(), result.covariance->end(), reply.covariance.begin());
+  }
   reply.reason = result.reason;
 }
 

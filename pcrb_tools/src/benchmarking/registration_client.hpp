@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pcrb_msgs/Problem.h>
 #include <pcrb_msgs/SubmitPose.h>
 #include <ros/time.h>
 
@@ -20,9 +21,9 @@ namespace pcrb_tools {
 /// queue.
 class RegistrationClient {
  public:
-  /// Makes a method for a data set (its parameters may depend on it).
+  /// Makes a method for the data set of a problem (its parameters may depend on it).
   using MethodFactory =
-      std::function<std::unique_ptr<pcrb::Registration>(const std::string& data_set)>;
+      std::function<std::unique_ptr<pcrb::Registration>(const pcrb_msgs::Problem& problem)>;
 
   explicit RegistrationClient(MethodFactory make_method);
 

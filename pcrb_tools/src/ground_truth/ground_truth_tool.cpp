@@ -9,6 +9,7 @@
 #include "common/progress.hpp"
 #include "common/tool_main.hpp"
 #include "ground_truth/pair_evaluation.hpp"
+#include "ground_truth/pickled_pairs.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
@@ -134,8 +135,14 @@ class SequenceEvaluation {
 };
 
 SequenceAccuracy assess(const std::string& data_set, const std::string& sequence, PairFile pairs) {
-  SequenceAccuracy result{data_set, sequence, std::move(pairs), {}, false};
-  if (result.isKnown()) result.accuracy = pcrb::assessGroundTruth(result.pairs.misalignments);
+  SequenceAccuracy result;
+  result.data_set = data_set;
+  result.sequence = sequence;
+  result.pairs = std::move(pairs);
+  if (!result.isKnown()) return result;
+  result.accuracy = pcrb::assessGroundTruth(result.pairs.misalignments);
+  result.translation = pcrb::describe(result.pairs.translations);
+  result.rotation_deg = pcrb::describe(result.pairs.rotations_deg);
   return result;
 }
 
@@ -143,9 +150,13 @@ SequenceAccuracy importFile(const std::string& import) {
   const std::size_t equals = import.find('=');
   if (equals == 0 || equals == std::string::npos) {
     throw pcrb::InvalidParameter("import: found '" + import +
-                                 "', expected <data set>=<path>/<sequence>.csv");
+                                 "', expected <data set>=<path>/<sequence>.csv, or _gt_check.dat");
   }
   const std::string path = import.substr(equals + 1);
+  if (isPickled(path)) {
+    return assess(import.substr(0, equals), sequenceOfPickled(path),
+                  parsePairFile(readPickledPairs(path), path));
+  }
   return assess(import.substr(0, equals), fs::path(path).stem().string(), readPairFile(path));
 }
 
@@ -173,6 +184,7 @@ void runGroundTruthTool(const GroundTruthOptions& options, std::ostream& out) {
   pcrb::writeFileAtomically(options.output + "/ground_truth.csv", formatCsv(sequences));
   pcrb::writeFileAtomically(options.output + "/ground_truth.txt", text);
   pcrb::writeFileAtomically(options.output + "/ground_truth.svg", plotSvg(sequences));
+  pcrb::writeFileAtomically(options.output + "/ground_truth_pairs.svg", plotPairsSvg(sequences));
   out << text << std::flush;
 }
 

@@ -17,10 +17,10 @@ struct GroundTruthOptions {
   std::string root;                      ///< folder of data sets; empty = imports only
   std::vector<std::string> sequences;    ///< data sets, sequences, or both as `a/b`; empty = all
   pcrb::Kind kind = pcrb::Kind::kLocal;  ///< of the problem files whose pairs are evaluated
-  std::vector<std::string> imports;      ///< `<data set>=<path>/<sequence>.csv`
-  std::string output;                    ///< folder, made where missing
-  std::optional<double> radius;          ///< m, of the association; empty = the overlap distance
-  std::size_t max_pairs = 0;             ///< per sequence, evenly over the file; 0 = all
+  std::vector<std::string> imports;  ///< `<data set>=<path>/<sequence>.csv`, or `…_gt_check.dat`
+  std::string output;                ///< folder, made where missing
+  std::optional<double> radius;      ///< m, of the association; empty = the overlap distance
+  std::size_t max_pairs = 0;         ///< per sequence, evenly over the file; 0 = all
   int threads = 1;
   bool force = false;  ///< replace files that somebody else made
 };
@@ -32,7 +32,8 @@ struct GroundTruthOptions {
 ///
 /// Writes `<output>/pairs/<data set>_<sequence>.csv` (a row per pair; an interrupted run goes on
 /// from its last pair, what is complete and unchanged is kept), then `ground_truth.csv`,
-/// `ground_truth.txt` (which also goes to `out`) and `ground_truth.svg` from them.
+/// `ground_truth.txt` (which also goes to `out`), `ground_truth.svg` and `ground_truth_pairs.svg`
+/// from them.
 /// A pair that cannot be aligned is counted as failed, its reason is in pairs/.
 /// @throws pcrb::Error  if a file is not as it should be, a wanted sequence is not there, or no
 ///                      pair of any sequence could be aligned.
@@ -44,6 +45,8 @@ struct SequenceAccuracy {
   std::string sequence;
   PairFile pairs;
   pcrb::GroundTruthAccuracy accuracy;  ///< nothing where no pair could be aligned
+  pcrb::Statistics translation;        ///< m, of what the pairs' poses moved, outliers included
+  pcrb::Statistics rotation_deg;       ///< the same in degrees
   bool is_worst = false;               ///< of its data set: stands for it in the paper's Table 1
 
   bool isKnown() const { return !pairs.misalignments.empty(); }
@@ -52,9 +55,10 @@ struct SequenceAccuracy {
 /// Marks the sequence with the largest mean of each data set; of equal ones the first.
 void markWorst(std::vector<SequenceAccuracy>& sequences);
 
-/// `data_set,sequence,pairs,failed,outliers,median,mean,stddev,is_worst`: lengths in m, of the
-/// pairs that are neither failed nor outliers, empty where no pair could be aligned. What `report`
-/// reads as each sequence's floor.
+/// `data_set,sequence,pairs,failed,outliers,median,mean,stddev,is_worst,translation_mean,
+/// translation_stddev,rotation_mean_deg,rotation_stddev_deg`: lengths in m, of the pairs that are
+/// neither failed nor outliers (translations and rotations with outliers), empty where no pair
+/// could be aligned. What `report` reads as each sequence's floor.
 std::string formatCsv(const std::vector<SequenceAccuracy>& sequences);
 
 /// The same as a table for a terminal, and a line per data set as in the paper's Table 1.
@@ -63,5 +67,9 @@ std::string formatText(const std::vector<SequenceAccuracy>& sequences);
 /// A histogram of the misalignments per sequence that has some, with outliers apart, mean and
 /// Gaussian: SVG.
 std::string plotSvg(const std::vector<SequenceAccuracy>& sequences);
+
+/// The paper's Fig. 2, a row per sequence: pairs on x; translation, rotation, misalignment, and
+/// misalignment without outliers on y, each with its mean and the band of ± one standard deviation.
+std::string plotPairsSvg(const std::vector<SequenceAccuracy>& sequences);
 
 }  // namespace pcrb_tools

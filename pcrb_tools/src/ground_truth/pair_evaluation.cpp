@@ -1,5 +1,6 @@
 #include "ground_truth/pair_evaluation.hpp"
 
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -26,6 +27,14 @@ void addNames(PairFile& file, const PairNames& pair, const std::string& remark) 
   file.text += '\n';
 }
 
+void addNumbers(PairFile& file, double misalignment, const Eigen::Vector3d& translation,
+                const Eigen::Quaterniond& rotation) {
+  file.misalignments.push_back(misalignment);
+  file.translations.push_back(translation.norm());
+  const double angle = 2.0 * std::atan2(rotation.vec().norm(), std::abs(rotation.w()));
+  file.rotations_deg.push_back(angle * 180.0 / M_PI);
+}
+
 void readRow(const pcrb::LineReader& lines, const std::vector<std::string>& fields,
              PairFile& file) {
   if (fields.size() < kNumbers) {
@@ -37,13 +46,15 @@ void readRow(const pcrb::LineReader& lines, const std::vector<std::string>& fiel
     ++file.failed;
     return;
   }
+  std::array<double, kNumbers> numbers{};
   for (std::size_t i = 0; i < kNumbers; ++i) {
     const auto value = pcrb::parseDouble(fields[i]);
     if (!value || !std::isfinite(*value)) lines.fail(pcrb::inQuotes(fields[i]), "a finite number");
-    if (i > 0) continue;
-    if (*value < 0.0) lines.fail(pcrb::inQuotes(fields[i]), "a length in m");
-    file.misalignments.push_back(*value);
+    numbers[i] = *value;
   }
+  if (numbers[0] < 0.0) lines.fail(pcrb::inQuotes(fields[0]), "a length in m");
+  addNumbers(file, numbers[0], {numbers[1], numbers[2], numbers[3]},
+             {numbers[7], numbers[4], numbers[5], numbers[6]});
 }
 
 }  // namespace
@@ -64,7 +75,7 @@ void addAligned(PairFile& file, const PairNames& pair, double misalignment,
     pcrb::appendShortest(file.text, value);
   }
   addNames(file, pair, remark);
-  file.misalignments.push_back(misalignment);
+  addNumbers(file, misalignment, t, q);
 }
 
 void addFailed(PairFile& file, const PairNames& pair, const std::string& reason) {
@@ -73,11 +84,16 @@ void addFailed(PairFile& file, const PairNames& pair, const std::string& reason)
   ++file.failed;
 }
 
+std::string_view publishedPairHeader() { return kPublishedHeader; }
+
 PairFile readPairFile(const std::string& path) {
-  const pcrb::FileBytes bytes(path);
+  return parsePairFile(std::string(pcrb::FileBytes(path).text()), path);
+}
+
+PairFile parsePairFile(const std::string& text, const std::string& path) {
   PairFile file;
-  file.text = std::string(bytes.text());
-  pcrb::LineReader lines(bytes.text(), path);
+  file.text = text;
+  pcrb::LineReader lines(text, path);
   std::string_view line;
   const bool has_header = lines.next(line);
   const std::string own = std::string(kPublishedHeader) + std::string(kOwnColumns);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pcrb_core/registration/registration.hpp"
@@ -19,6 +20,8 @@ namespace pcrb_tools {
 struct PairFile {
   std::string text;                   ///< header and rows
   std::vector<double> misalignments;  ///< m, of the pairs that were aligned
+  std::vector<double> translations;   ///< m, of the same
+  std::vector<double> rotations_deg;  ///< of the same
   std::size_t failed = 0;             ///< pairs that were not
 
   std::size_t pairs() const { return misalignments.size() + failed; }
@@ -40,6 +43,12 @@ void addFailed(PairFile& file, const PairNames& pair, const std::string& reason)
 /// Reads what addAligned and addFailed made, or a published file.
 /// @throws pcrb::InvalidFile  with file and line, what was found and what was expected.
 PairFile readPairFile(const std::string& path);
+
+/// The same of a text that is in memory already.
+PairFile parsePairFile(const std::string& text, const std::string& path);
+
+/// The header of the published files.
+std::string_view publishedPairHeader();
 
 /// Aligns pairs of a sequence's clouds from their ground-truth poses. A target that stays is read
 /// and prepared once.

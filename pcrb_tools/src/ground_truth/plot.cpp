@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "ground_truth/ground_truth_tool.hpp"
-#include "pcrb_core/io/number.hpp"
+#include "ground_truth/svg_text.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -16,26 +16,6 @@ constexpr double kTop = 30.0;
 constexpr double kBottom = 175.0;
 constexpr std::size_t kColumns = 2;
 constexpr std::size_t kBins = 24;
-
-std::string px(double value) { return pcrb::formatFixed(value, 1); }
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '<' ? std::string("&lt;") : c == '&' ? std::string("&amp;") : std::string(1, c);
-  }
-  return result;
-}
-
-std::string label(double x, double y, const std::string& anchor, const std::string& text) {
-  return "<text x='" + px(x) + "' y='" + px(y) + "' text-anchor='" + anchor + "'>" + escaped(text) +
-         "</text>\n";
-}
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& style) {
-  return "<line x1='" + px(x1) + "' y1='" + px(y1) + "' x2='" + px(x2) + "' y2='" + px(y2) +
-         "' class='" + style + "'/>\n";
-}
 
 /// The histogram of one sequence, in its own coordinates.
 class Panel {
@@ -122,21 +102,16 @@ std::string plotSvg(const std::vector<SequenceAccuracy>& sequences) {
                [](const SequenceAccuracy& sequence) { return sequence.isKnown(); });
   const std::size_t columns = std::min(kColumns, known.size());
   const std::size_t rows = (known.size() + kColumns - 1) / kColumns;
-  const std::string width = px(kWidth * static_cast<double>(columns));
-  const std::string height = px(kHeight * static_cast<double>(rows));
-  std::string text = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 " + width + " " +
-                     height + "' width='" + width + "' height='" + height +
-                     "' font-family='sans-serif' font-size='11'>\n<style>.kept{fill:#4a7ab5}"
-                     ".outlier{fill:#d9822b}.mean{stroke:#b02020;stroke-dasharray:4 3}"
-                     ".axis{stroke:#333}.gaussian{fill:none;stroke:#222;stroke-width:1.3}</style>\n"
-                     "<rect width='100%' height='100%' fill='white'/>\n";
+  std::string text =
+      beginSvg(kWidth * static_cast<double>(columns), kHeight * static_cast<double>(rows),
+               ".kept{fill:#4a7ab5}.outlier{fill:#d9822b}.mean{stroke:#b02020;stroke-dasharray:4 3}"
+               ".axis{stroke:#333}.gaussian{fill:none;stroke:#222;stroke-width:1.3}");
   for (std::size_t i = 0; i < known.size(); ++i) {
     const std::size_t column = i % kColumns;
     const std::size_t row = i / kColumns;
     const double left = kWidth * static_cast<double>(column);
     const double top = kHeight * static_cast<double>(row);
-    text += "<g transform='translate(" + px(left) + " " + px(top) + ")'>\n" +
-            Panel(known[i]).svg() + "</g>\n";
+    text += movedGroup(left, top, Panel(known[i]).svg());
   }
   return text + "</svg>\n";
 }

@@ -37,7 +37,9 @@ void markWorst(std::vector<SequenceAccuracy>& sequences) {
 }
 
 std::string formatCsv(const std::vector<SequenceAccuracy>& sequences) {
-  std::string text = "data_set,sequence,pairs,failed,outliers,median,mean,stddev,is_worst\n";
+  std::string text =
+      "data_set,sequence,pairs,failed,outliers,median,mean,stddev,is_worst,translation_mean,"
+      "translation_stddev,rotation_mean_deg,rotation_stddev_deg\n";
   for (const SequenceAccuracy& sequence : sequences) {
     const pcrb::Statistics& kept = sequence.accuracy.kept;
     text += sequence.data_set + "," + sequence.sequence + "," +
@@ -47,7 +49,13 @@ std::string formatCsv(const std::vector<SequenceAccuracy>& sequences) {
       text += ",";
       if (sequence.isKnown()) pcrb::appendShortest(text, value);
     }
-    text += sequence.is_worst ? ",1\n" : ",0\n";
+    text += sequence.is_worst ? ",1" : ",0";
+    for (const double value : {sequence.translation.mean, sequence.translation.stddev,
+                               sequence.rotation_deg.mean, sequence.rotation_deg.stddev}) {
+      text += ",";
+      if (sequence.isKnown()) pcrb::appendShortest(text, value);
+    }
+    text += "\n";
   }
   return text;
 }

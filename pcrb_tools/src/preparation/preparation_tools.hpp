@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pcrb_core/problem/dataset.hpp"
+#include "pcrb_core/problem/pair_sampling.hpp"
 
 namespace pcrb_tools {
 
@@ -56,6 +57,7 @@ struct SamplingOptions {
   std::vector<pcrb::Kind> kinds{pcrb::Kind::kLocal, pcrb::Kind::kGlobal};
   std::vector<std::string> excluded;  ///< clouds that pairs are not drawn from; kMapCloud never is
   pcrb::BoundsSource bounds = pcrb::BoundsSource::kMeasured;
+  pcrb::TopUp top_up = pcrb::TopUp::kEven;
   std::uint64_t seed = 1;
   int threads = 1;
   bool force = false;  ///< replace outputs that somebody else made

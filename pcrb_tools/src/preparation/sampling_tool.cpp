@@ -106,6 +106,8 @@ class Sampling {
     file.setParameter("translation_m", range(dataset_.bounds(kind).translation));
     file.setParameter("rotation_deg", range(dataset_.bounds(kind).rotation_deg));
     file.setParameter("map", options_.map);
+    // Not where it is as ever: files of older versions stay up to date.
+    if (options_.top_up == pcrb::TopUp::kPaper) file.setParameter("top_up", "paper");
     std::string excluded;
     for (const std::string& name : options_.excluded) excluded += name + " ";
     file.setParameter("excluded", excluded);
@@ -135,7 +137,7 @@ class Sampling {
     }
     pcrb::Random random(
         pcrb::streamSeed(options_.seed, sequence() + " " + toString(kind) + " pairs"));
-    return samplePairs(eligible, pcrb::kPairsPerList, random);
+    return samplePairs(eligible, pcrb::kPairsPerList, random, options_.top_up);
   }
 
   std::size_t mapPosition() const {

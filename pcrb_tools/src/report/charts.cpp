@@ -3,13 +3,13 @@
 
 #include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
+#include "pcrb_core/problem/pair_sampling.hpp"
 #include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 constexpr std::size_t kHistogramBins = 40;
-constexpr std::size_t kOverlapBins = 20;
 constexpr std::size_t kQuantileBins = 8;
 
 Json solvedCurves(const Section& section, const std::vector<double>& thresholds) {
@@ -122,6 +122,19 @@ std::vector<double> overlapsOf(const Section& section, const Selection& selectio
   return overlaps;
 }
 
+/// What the ten intervals cut: the range that pairs were drawn from, else that of the pairs.
+pcrb::Range overlapRangeOf(const Section& section, const Selection& selection,
+                           const std::vector<double>& overlaps) {
+  const auto [least, most] = std::minmax_element(overlaps.begin(), overlaps.end());
+  pcrb::Range range{*least, *most};
+  const auto known = section.overlap_ranges.find(*selection.sequences.begin());
+  if (known != section.overlap_ranges.end()) {
+    range = {std::min(known->second.min, *least), std::max(known->second.max, *most)};
+  }
+  constexpr double kLeastWidth = 1e-3;  // of pairs that all have one overlap
+  return {range.min, std::max(range.max, range.min + kLeastWidth)};
+}
+
 Json overlapHistograms(const Section& section) {
   Json panels = Json::array();
   for (const Selection* selection : section.at({"sequence"})) {
@@ -130,7 +143,11 @@ Json overlapHistograms(const Section& section) {
     Json panel;
     panel["selection"] = selection->name;
     panel["pairs"] = overlaps.size();
-    panel["counts"] = pcrb::makeHistogram(overlaps, 0.0, 1.0, kOverlapBins).counts;
+    const pcrb::Range range = overlapRangeOf(section, *selection, overlaps);
+    panel["low"] = range.min;
+    panel["high"] = range.max;
+    panel["counts"] =
+        pcrb::makeHistogram(overlaps, range.min, range.max, pcrb::kOverlapIntervals).counts;
     panel["median"] = pcrb::describe(overlaps).median;
     panels.push_back(panel);
   }
@@ -149,6 +166,7 @@ Json chartsOf(const Section& section) {
   charts["over_scans"] = errorsOverScans(section);
   charts["histograms"] = histograms(section);
   charts["overlaps"] = overlapHistograms(section);
+  charts["calibration"] = calibrationCurves(section);
   return charts;
 }
 

@@ -146,6 +146,7 @@ Table problemTable(const Section& section) {
                {"rotation deg", Format::kError},
                {"overlap", Format::kFraction},
                {"latency", Format::kSeconds},
+               {"NEES", Format::kError},
                {"problem"},
                {"source"},
                {"target"},
@@ -165,7 +166,8 @@ Table problemTable(const Section& section) {
          pcrb::toString(problem->outcome), optionalNumber(problem->initial_misalignment),
          optionalNumber(problem->translation_error), optionalNumber(degrees),
          optionalNumber(problem->overlap), optionalNumber(problem->runtime),
-         problem->key.problem_id, problem->source, problem->target, problem->reason});
+         problem->judged ? number(problem->judged->nees) : Json(nullptr), problem->key.problem_id,
+         problem->source, problem->target, problem->reason});
   }
   return table;
 }

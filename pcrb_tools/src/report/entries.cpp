@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "common/series_file.hpp"
 #include "pcrb_core/run/results_store.hpp"
 #include "report/published.hpp"
 
@@ -11,26 +12,6 @@ namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct NamedPath {
-  std::string name;  ///< empty if none is given
-  std::string path;
-};
-
-/// `NAME=PATH` or `PATH`.
-NamedPath parseNamed(const std::string& text) {
-  const std::size_t sign = text.find('=');
-  if (sign != std::string::npos && sign > 0 && !fs::exists(text) &&
-      text.substr(0, sign).find('/') == std::string::npos) {
-    return {text.substr(0, sign), text.substr(sign + 1)};
-  }
-  return {"", text};
-}
-
-std::string lastName(const std::string& path) {
-  const fs::path folder = fs::absolute(path).lexically_normal();
-  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
-}
 
 ScoredProblem fromResult(const pcrb::Result& result) {
   ScoredProblem problem;
@@ -50,6 +31,7 @@ ScoredProblem fromResult(const pcrb::Result& result) {
   problem.finished = result.finished;
   if (result.position && result.orientation) {
     problem.reply = pcrb::makeTransform(*result.position, *result.orientation);
+    problem.covariance = result.covariance;
   }
   return problem;
 }
@@ -66,10 +48,12 @@ void addByKind(const Entry& frame, std::vector<ScoredProblem> problems,
       entry.problems.push_back(std::move(problem));
     }
     if (entry.problems.empty()) continue;
-    std::sort(entry.problems.begin(), entry.problems.end(),
-              [](const auto& a, const auto& b) { return a.key < b.key; });
+    std::sort(entry.problems.begin(), entry.problems.end(), [](const auto& a, const auto& b) {
+      return a.key < b.key || (a.key == b.key && a.trial < b.trial);
+    });
     for (std::size_t i = 1; i < entry.problems.size(); ++i) {
-      if (entry.problems[i].key == entry.problems[i - 1].key) {
+      if (entry.problems[i].key == entry.problems[i - 1].key &&
+          entry.problems[i].trial == entry.problems[i - 1].trial) {
         throw pcrb::InvalidFile(entry.path, 0,
                                 "problem " + entry.problems[i].key.problem_id + " of " +
                                     entry.problems[i].key.sequence + " twice",
@@ -80,20 +64,58 @@ void addByKind(const Entry& frame, std::vector<ScoredProblem> problems,
   }
 }
 
-void addRun(const std::string& text, std::vector<Entry>& entries) {
-  const NamedPath run = parseNamed(text);
-  const pcrb::ResultsStore store(run.path, pcrb::ResultsStore::Access::kReadOnly);
-  Entry frame;
-  frame.method = run.name.empty() ? lastName(run.path) : run.name;
-  frame.path = run.path;
-  frame.info = pcrb::RunInfo::read(store);
-  std::vector<ScoredProblem> problems;
+/// Adds a run's problems; of several trials the first says what the run is.
+void addResults(const std::string& path, int trial, Entry& frame,
+                std::vector<ScoredProblem>& problems) {
+  const pcrb::ResultsStore store(path, pcrb::ResultsStore::Access::kReadOnly);
+  if (!frame.info) frame.info = pcrb::RunInfo::read(store);
+  const std::size_t before = problems.size();
   auto scans = store.scans();
   for (const pcrb::Result& result : store.results()) {
     problems.push_back(fromResult(result));
+    problems.back().trial = trial;
     problems.back().scans = std::move(scans[result.key]);
   }
-  if (problems.empty()) throw pcrb::InvalidFile(store.path(), "holds no result yet");
+  if (problems.size() == before) throw pcrb::InvalidFile(store.path(), "holds no result yet");
+}
+
+/// One entry per value of a series, with the problems of all trials.
+void addSeries(const NamedPath& place, const std::string& name, const std::vector<SeriesRun>& runs,
+               std::vector<Entry>& entries) {
+  std::vector<std::string> values;
+  for (const SeriesRun& run : runs) {
+    if (std::find(values.begin(), values.end(), run.value) == values.end()) {
+      values.push_back(run.value);
+    }
+  }
+  for (const std::string& value : values) {
+    Entry frame;
+    frame.path = place.path;
+    frame.series = name;
+    frame.trials = 0;
+    std::vector<ScoredProblem> problems;
+    for (const SeriesRun& run : runs) {
+      if (run.value != value) continue;
+      frame.parameter = run.parameter;
+      addResults(place.path + "/" + run.folder, run.trial, frame, problems);
+      ++frame.trials;
+    }
+    frame.value = value;
+    frame.method = frame.parameter.empty() ? name : name + " " + frame.parameter + "=" + value;
+    addByKind(frame, std::move(problems), entries);
+  }
+}
+
+void addRun(const std::string& text, std::vector<Entry>& entries) {
+  const NamedPath run = parseNamed(text);
+  const std::string name = run.name.empty() ? lastName(run.path) : run.name;
+  const auto series = readSeries(run.path);
+  if (!series.empty()) return addSeries(run, name, series, entries);
+  Entry frame;
+  frame.method = name;
+  frame.path = run.path;
+  std::vector<ScoredProblem> problems;
+  addResults(run.path, 0, frame, problems);
   addByKind(frame, std::move(problems), entries);
 }
 
@@ -144,11 +166,25 @@ void requireDistinct(const std::vector<Entry>& entries) {
 
 }  // namespace
 
+NamedPath parseNamed(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  if (sign != std::string::npos && sign > 0 && !fs::exists(text) &&
+      text.substr(0, sign).find('/') == std::string::npos) {
+    return {text.substr(0, sign), text.substr(sign + 1)};
+  }
+  return {"", text};
+}
+
+std::string lastName(const std::string& path) {
+  const fs::path folder = fs::absolute(path).lexically_normal();
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+}
+
 std::vector<Entry> loadEntries(const ReportOptions& options) {
   std::vector<Entry> entries;
   for (const std::string& run : options.runs) addRun(run, entries);
   addImports(options, entries);
-  if (entries.empty()) {
+  if (entries.empty() && options.trackers.empty()) {
     throw pcrb::InvalidParameter("found no run and no import, expected one at least");
   }
   requireDistinct(entries);

@@ -2,12 +2,24 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/report_tool.hpp"
 #include "report/scored_problem.hpp"
 
 namespace pcrb_tools {
+
+/// What a user names a folder or file: `NAME=PATH`, or `PATH`.
+struct NamedPath {
+  std::string name;  ///< empty if none is given
+  std::string path;
+};
+
+NamedPath parseNamed(const std::string& text);
+
+/// The last part of a path: what a run is called that has no other name.
+std::string lastName(const std::string& path);
 
 /// Reads all runs and imports, one entry per method and kind, in the order in which they are given.
 /// A run is called NAME (`NAME=FOLDER`) or after its folder; an import after its file.
@@ -34,10 +46,24 @@ struct Import {
 /// In the file's name, the sequence is the longest known one that stands before `_<kind>`; else
 /// what stands behind the method's name, or behind the first `_` without such a beginning.
 ///
+/// Whatever the format: a file of the paper's authors is read as importAuthorsResults() does.
+///
 /// @param method  empty = from the file's name.
 /// @param data_sets  of known sequences; the data set of others is `own`.
 /// @throws pcrb::InvalidFile  with file and line, what was found and what was expected.
 Import importResults(const std::string& method, const std::string& path, const std::string& format,
                      const std::map<std::string, std::string>& data_sets);
+
+/// Whether a text is a result file of the paper's authors: their command in a comment, then
+/// `id;initial_error;final_error;transformation` (with a number of iterations before the last one
+/// in newer ones).
+bool isAuthorsResult(std::string_view text);
+
+/// Reads such a file, `<sequence>_<kind>_result.txt`.
+///
+/// @param method  empty = `ppcr` where the command is that of PPCR, else the folder's name.
+/// @throws pcrb::InvalidFile  with file and line, what was found and what was expected.
+Import importAuthorsResults(const std::string& method, const std::string& path,
+                            const std::map<std::string, std::string>& data_sets);
 
 }  // namespace pcrb_tools

@@ -163,8 +163,9 @@ class Reader {
 
 Import importResults(const std::string& method, const std::string& path, const std::string& format,
                      const DataSets& data_sets) {
-  const FileName name = parseFileName(path, method, data_sets);
   const pcrb::FileBytes file(path);
+  if (isAuthorsResult(file.text())) return importAuthorsResults(method, path, data_sets);
+  const FileName name = parseFileName(path, method, data_sets);
   pcrb::LineReader lines(file.text(), path);
   Reader reader(lines, name, data_sets);
   Fields fields;

@@ -1,11 +1,15 @@
 #include "report/problem_details.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/parallel.hpp"
+#include "pcrb_core/problem/overlap_matrix.hpp"
+#include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_core/problem/presentation.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/problem/secret.hpp"
@@ -89,6 +93,21 @@ std::vector<double> ProblemDetails::overlapsOf(const std::string& data_set,
   return overlaps;
 }
 
+std::optional<pcrb::Range> ProblemDetails::overlapRangeOf(const std::string& data_set,
+                                                          const std::string& sequence,
+                                                          pcrb::Kind kind) const {
+  const std::string path = root_ + "/" + data_set + "/" + sequence + "_overlap.txt";
+  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
+  const auto pairs = pcrb::eligiblePairs(pcrb::readOverlapMatrix(path), kind);
+  if (pairs.empty()) return std::nullopt;
+  pcrb::Range range{pairs.front().overlap, pairs.front().overlap};
+  for (const pcrb::CloudPair& pair : pairs) {
+    range.min = std::min(range.min, pair.overlap);
+    range.max = std::max(range.max, pair.overlap);
+  }
+  return range;
+}
+
 void ProblemDetails::addPairs(Entry& entry) {
   for (ScoredProblem& problem : entry.problems) {
     if (!problem.source.empty()) continue;
@@ -133,6 +152,10 @@ void ProblemDetails::addComponents(const pcrb::RunInfo& info, ScoredProblem& pro
       pcrb::poseComponents(residual, posed.source->metric->centroid());
   requireSameError(problem, residual, components);
   problem.components = components.values();
+  if (!problem.covariance) return;
+  const Transform truth = presentation.applied.inverse();
+  problem.judged =
+      pcrb::judgeCovariance(pcrb::poseErrorVector(*problem.reply, truth), *problem.covariance);
 }
 
 void ProblemDetails::addComponents(Entry& entry, Progress& progress) {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,12 @@ class ProblemDetails {
   std::vector<double> overlapsOf(const std::string& data_set, const std::string& sequence,
                                  pcrb::Kind kind);
 
+  /// The least and the largest overlap that the pairs of a sequence were drawn from, as
+  /// `<sequence>_overlap.txt` beside the problem file says; nothing without it.
+  /// @throws pcrb::InvalidFile  if that file is malformed.
+  std::optional<pcrb::Range> overlapRangeOf(const std::string& data_set,
+                                            const std::string& sequence, pcrb::Kind kind) const;
+
   /// Adds source, target, overlap and pair to problems that have none, from the problem files.
   /// @throws pcrb::Error  if a problem file is missing or does not have a problem.
   void addPairs(Entry& entry);
@@ -34,7 +41,7 @@ class ProblemDetails {
   /// @throws pcrb::Error  if the problem file or the cloud is missing.
   void addErrorPerMetre(ScoredProblem& problem);
 
-  /// Adds components to the answered problems of a run.
+  /// Adds components to the answered problems of a run, and judges their covariances.
   ///
   /// @throws pcrb::Error  naming the problem, if a file is missing, or the pose error that follows
   ///                      from it is not the stored one: the data sets have changed since the run.

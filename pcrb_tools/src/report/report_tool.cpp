@@ -21,7 +21,10 @@ void addOverlaps(ProblemDetails& details, Section& section) {
   for (const Selection* selection : section.at({"sequence"})) {
     const auto& [data_set, sequence] = *selection->sequences.begin();
     auto overlaps = details.overlapsOf(data_set, sequence, section.kind);
-    if (!overlaps.empty()) section.overlaps[{data_set, sequence}] = std::move(overlaps);
+    if (overlaps.empty()) continue;
+    section.overlaps[{data_set, sequence}] = std::move(overlaps);
+    const auto range = details.overlapRangeOf(data_set, sequence, section.kind);
+    if (range) section.overlap_ranges[{data_set, sequence}] = *range;
   }
 }
 
@@ -31,6 +34,7 @@ void writeReportData(const ReportOptions& options) {
   std::vector<GroundTruth> accuracies;
   if (!options.ground_truth.empty()) accuracies = readGroundTruth(options.ground_truth);
   std::vector<Entry> entries = loadEntries(options);
+  const std::vector<Tracker> trackers = loadTrackers(options.trackers);
   DetailsByRoot details = addDetails(options, accuracies, entries);
   const std::string root = details.empty() ? std::string() : details.begin()->first;
   std::vector<Section> sections = makeSections(entries, root);
@@ -39,7 +43,8 @@ void writeReportData(const ReportOptions& options) {
   }
   removeFormerFiles(options.output);
   ReportWriter writer(options);
-  for (const Section& section : sections) writer.addSection(section, accuracies);
+  for (const Section& section : sections) writer.addSection(section, accuracies, root);
+  writer.addTrackers(trackers);
   writer.finish(summaryTable(sections));
 }
 

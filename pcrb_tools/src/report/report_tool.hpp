@@ -10,10 +10,11 @@ namespace pcrb_tools {
 
 /// What `report` is asked for.
 struct ReportOptions {
-  std::vector<std::string> runs;     ///< run folders, each `FOLDER` or `NAME=FOLDER`
-  std::vector<std::string> imports;  ///< result files of others, each `FILE` or `NAME=FILE`
-  std::string format = "csv";        ///< of the imports: `csv` or `ppcr`
-  std::string output;                ///< folder that is made or added to
+  std::vector<std::string> runs;      ///< run folders, each `FOLDER` or `NAME=FOLDER`
+  std::vector<std::string> imports;   ///< result files of others, each `FILE` or `NAME=FILE`
+  std::vector<std::string> trackers;  ///< output folders of `score_poses --sequence`, named alike
+  std::string format = "csv";         ///< of the imports: `csv` or `ppcr`
+  std::string output;                 ///< folder that is made or added to
   std::string title = "Point cloud registration benchmark";
   std::string root;          ///< data set folder; empty = what each run says, where it is there
   std::string ground_truth;  ///< CSV of evaluate_ground_truth, for floors; empty = none

@@ -24,7 +24,8 @@ Json describeEntry(const Entry& entry) {
   for (const ScoredProblem& problem : entry.problems) answered += problem.isAnswered() ? 1 : 0;
   json["answered"] = answered;
   const auto planned = entry.info ? entry.info->problems : std::nullopt;
-  json["planned"] = planned ? Json(std::to_string(*planned)) : Json(nullptr);
+  const auto trials = static_cast<std::size_t>(entry.trials);
+  json["planned"] = planned ? Json(std::to_string(*planned * trials)) : Json(nullptr);
   json["info"] = Json::object();
   if (!entry.info) return json;
   for (const auto& [key, text] : entry.info->writeShown()) json["info"][key] = text;
@@ -85,6 +86,9 @@ std::vector<std::string> filesOf(const Json& report) {
       }
     }
   }
+  if (report.contains("trackers") && !report.at("trackers").is_null()) {
+    files.emplace_back("tables/tracking_trackers.csv");
+  }
   return files;
 }
 
@@ -103,7 +107,8 @@ ReportWriter::ReportWriter(const ReportOptions& options) : options_(options) {
   latex_ = "% " + options.title + ": tables, each ready for \\input or to be cut out\n\n";
 }
 
-void ReportWriter::addSection(const Section& section, const std::vector<GroundTruth>& accuracies) {
+void ReportWriter::addSection(const Section& section, const std::vector<GroundTruth>& accuracies,
+                              const std::string& root) {
   kind_ = pcrb::toString(section.kind);
   markdown_ += "## " + kind_ + " problems\n\n";
   Json json;
@@ -123,8 +128,13 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   add(settlingTable(section));
   add(keepingUpTable(section));
   add(componentTable(section));
+  add(covarianceTable(section));
+  add(covarianceAxisTable(section));
   add(groundTruthTable(section, accuracies));
+  add(trialTable(section));
+  add(sweepTable(section, options_));
   add(publishedTable(section));
+  add(sequenceTable(section, root));
   addProblems(problemTable(section));
   json["own_problems"] = Json::array();
   for (const auto& [data_set, sequence] : section.own_problems) {
@@ -133,6 +143,19 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   json["published_correlations"] = publishedCorrelationsOf(section);
   json["charts"] = chartsOf(section);
   json_["sections"].push_back(std::move(json));
+}
+
+void ReportWriter::addTrackers(const std::vector<Tracker>& trackers) {
+  json_["trackers"] = nullptr;
+  if (trackers.empty()) return;
+  kind_ = "tracking";
+  markdown_ += "## trackers\n\n";
+  Json tables = Json::object();
+  tables_ = &tables;
+  add(trackerTable(trackers));
+  json_["trackers"]["table"] = tables["trackers"];
+  json_["trackers"]["groups"] = trackerCharts(trackers);
+  tables_ = nullptr;
 }
 
 void ReportWriter::finish(const Table& summary) {

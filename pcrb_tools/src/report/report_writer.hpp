@@ -7,6 +7,7 @@
 #include "report/report_tool.hpp"
 #include "report/section.hpp"
 #include "report/table.hpp"
+#include "report/trackers.hpp"
 
 namespace pcrb_tools {
 
@@ -18,7 +19,11 @@ class ReportWriter {
   explicit ReportWriter(const ReportOptions& options);
 
   /// Writes the tables of one kind of problems.
-  void addSection(const Section& section, const std::vector<GroundTruth>& accuracies);
+  void addSection(const Section& section, const std::vector<GroundTruth>& accuracies,
+                  const std::string& root);
+
+  /// Writes what is said of trackers; nothing if there are none.
+  void addTrackers(const std::vector<Tracker>& trackers);
 
   /// Writes what has all sections.
   void finish(const Table& summary);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pcrb_core/evaluation/covariance_consistency.hpp"
 #include "pcrb_core/run/result.hpp"
 #include "pcrb_core/run/run_info.hpp"
 #include "pcrb_core/transform.hpp"
@@ -16,6 +17,7 @@ struct ScoredProblem {
   pcrb::ProblemKey key;
   std::string source;
   std::string target;
+  int trial = 0;     ///< of a run that was repeated: from 1
   std::string pair;  ///< names the pair of clouds within the kind: the unit of all tests
   std::optional<double> overlap;
   pcrb::Outcome outcome = pcrb::Outcome::kReplied;
@@ -31,6 +33,8 @@ struct ScoredProblem {
   std::optional<pcrb::Transform> reply;             ///< the accepted pose, as it was sent
   std::optional<std::array<double, 6>> components;  ///< x y z (m) roll pitch yaw (rad)
   std::vector<pcrb::ScanRecord> scans;              ///< of a localization node
+  std::optional<pcrb::PoseCovariance> covariance;   ///< of that pose
+  std::optional<pcrb::JudgedCovariance> judged;     ///< where it could be judged
   std::optional<double> error_per_metre;  ///< the metric of a translation of 1 m of this source
 
   bool isAnswered() const { return outcome == pcrb::Outcome::kReplied; }
@@ -42,7 +46,11 @@ struct Entry {
   pcrb::Kind kind = pcrb::Kind::kLocal;
   std::string path;                     ///< run folder or file
   std::optional<pcrb::RunInfo> info;    ///< of a run; imports have none
-  std::vector<ScoredProblem> problems;  ///< ordered by key
+  int trials = 1;                       ///< of which the problems are, each of every trial
+  std::string series;                   ///< of a run of a sweep: what all its runs are called
+  std::string parameter;                ///< that is swept; empty = none
+  std::string value;                    ///< of that parameter
+  std::vector<ScoredProblem> problems;  ///< ordered by key and trial
 };
 
 /// Names the pair of clouds: by its clouds where they are known, by the official id where it is one

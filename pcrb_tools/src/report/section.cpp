@@ -106,6 +106,15 @@ std::optional<Entry> makeBaseline(const std::vector<const Entry*>& entries) {
   return baseline;
 }
 
+/// The baseline stands for a run of the method that does the same.
+void dropBaselineRun(Section& section) {
+  auto& entries = section.entries;
+  if (!section.baseline || entries.size() < 2) return;
+  entries.erase(std::remove_if(entries.begin(), entries.end(),
+                               [](const Entry* entry) { return entry->method == kBaselineRun; }),
+                entries.end());
+}
+
 }  // namespace
 
 std::vector<const Selection*> Section::at(const std::set<std::string>& levels) const {
@@ -128,6 +137,7 @@ std::vector<Section> makeSections(const std::vector<Entry>& entries, const std::
     addSelections(root, section);
     section.own_problems = findOwnProblems(section.entries, root);
     section.baseline = makeBaseline(section.entries);
+    dropBaselineRun(section);
     sections.push_back(std::move(section));
   }
   return sections;
@@ -164,7 +174,9 @@ ProblemCounts countProblems(const Section& section, const Selection& selection) 
   for (const Entry* entry : section.entries) {
     const Problems problems = select(*entry, selection);
     methods += problems.empty() ? 0 : 1;
-    for (const ScoredProblem* problem : problems) ++holders[problem->key];
+    std::set<pcrb::ProblemKey> keys;  // a problem of several trials is one
+    for (const ScoredProblem* problem : problems) keys.insert(problem->key);
+    for (const pcrb::ProblemKey& key : keys) ++holders[key];
   }
   ProblemCounts counts;
   counts.all = holders.size();

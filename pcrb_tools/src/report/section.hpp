@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pcrb_core/evaluation/distributions.hpp"
+#include "pcrb_core/problem/dataset.hpp"
 #include "report/scored_problem.hpp"
 
 namespace pcrb_tools {
@@ -30,6 +31,8 @@ struct Section {
   std::optional<Entry> baseline;
   /// Of all pairs of clouds in the problem file of a sequence (data set, sequence), where known.
   std::map<std::pair<std::string, std::string>, std::vector<double>> overlaps;
+  /// Of all pairs that they were drawn from, as the overlap matrix of a sequence says, where known.
+  std::map<std::pair<std::string, std::string>, pcrb::Range> overlap_ranges;
   /// Sequences (data set, sequence) whose problems are not the published ones in some entry,
   /// whatever their name: a tool drew them, or ids are others.
   std::set<std::pair<std::string, std::string>> own_problems;
@@ -40,6 +43,10 @@ struct Section {
 
 /// Name of the baseline among methods.
 constexpr const char* kBaseline = "do nothing";
+
+/// What a run of the method is called that returns the initial guess: where there are others, it is
+/// the baseline, and no method beside them.
+constexpr const char* kBaselineRun = "do_nothing";
 
 /// One section per kind that has entries. The entries must outlive it.
 ///

@@ -62,6 +62,27 @@ Table keepingUpTable(const Section& section);
 /// Quartiles of the error after each scan, a panel per sequence; a problem that ended before keeps
 /// its last answer.
 Json errorsOverScans(const Section& section);
+/// Whether the replies' covariances are as large as their errors, per method, sequence and total.
+/// No rows where no reply came with one.
+Table covarianceTable(const Section& section);
+
+/// The same for each axis, in total.
+Table covarianceAxisTable(const Section& section);
+
+/// `probabilities`, and per method the fraction of errors in the ellipsoid of each.
+Json calibrationCurves(const Section& section);
+
+/// How much repeated runs differ, per method and selection. No rows where none was repeated.
+Table trialTable(const Section& section);
+
+/// The median over the values of a swept parameter, with its interval. No rows without a sweep.
+Table sweepTable(const Section& section, const ReportOptions& options);
+
+/// What the sequences are (the paper's Tables 2 and 3) and what problems of them are here: data
+/// set, sensor, characteristics and who assigned them, pairs, their overlaps.
+///
+/// @param root  folder of the data sets; may be empty.
+Table sequenceTable(const Section& section, const std::string& root);
 
 /// Every problem, worst first.
 Table problemTable(const Section& section);
@@ -70,7 +91,8 @@ Table problemTable(const Section& section);
 /// solved over the error threshold, per method), `over_misalignment` and `over_overlap` (quartiles
 /// of the error in bins, per data set and method), `over_scans`, `histograms` (of the error, per
 /// sequence and method, with median, mean and standard deviation) and `overlaps` (of the pairs, per
-/// sequence).
+/// sequence, in the ten intervals of overlap that pairs are drawn from), `calibration`
+/// (calibrationCurves()).
 Json chartsOf(const Section& section);
 
 }  // namespace pcrb_tools

@@ -40,16 +40,21 @@ struct TrackingOptions {
   std::string scans;   ///< list of sequence_to_bag or replay; empty = stamps are in the clouds'
                        ///< names and poses in the clouds' frame
   std::string output;  ///< folder of the results
-  double max_difference = 0.01;                                 ///< s between a scan and its pose
-  std::size_t delta = 1;                                        ///< scans, of relative errors
-  bool align = false;                                           ///< APE after a rigid alignment
+  double max_difference = 0.01;  ///< s between a scan and its pose
+  std::size_t delta = 1;         ///< scans, of relative errors
+  double metres = 1.0;           ///< m, of relative errors
+  double max_lost = 1.0;         ///< fraction of the scans that may be without a pose
+  bool align = false;            ///< APE after a rigid alignment
   pcrb::Transform T_body_sensor = pcrb::Transform::Identity();  ///< poses are those of the body
 };
 
-/// Scores a trajectory scan by scan: the benchmark's error, APE and RPE. Writes scans.csv,
-/// summary.txt, truth.tum and estimate.tum, and prints the summary.
+/// Scores a trajectory scan by scan: the benchmark's error, APE, RPE over scans and metres, KITTI's
+/// drift. A scan without a pose is lost, and costs: it counts with the last pose before it, or with
+/// that of the first scan. Writes scans.csv, summary.txt, truth.tum, estimate.tum and map.csv (what
+/// the scans show, from above), and prints the summary.
 ///
+/// @return  whether no more scans were lost than may be.
 /// @throws pcrb::Error  for files that are not as they should be, or if no scan has a pose.
-void runTrackingScoring(const TrackingOptions& options, std::ostream& out);
+bool runTrackingScoring(const TrackingOptions& options, std::ostream& out);
 
 }  // namespace pcrb_tools

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/process.hpp"
@@ -35,6 +38,7 @@ struct TrackedScan {
   pcrb::Transform truth = pcrb::Transform::Identity();  ///< T_map_sensor
   std::optional<pcrb::Transform> T_map_sensor;          ///< estimated; nothing = no pose
   std::optional<pcrb::PoseError> error;
+  double held_error = 0.0;  ///< of the pose, or without one of the last pose before it
 };
 
 std::vector<double> inDegrees(std::vector<double> angles) {
@@ -68,11 +72,13 @@ struct Matched {
   pcrb::Poses truth;
   pcrb::Poses estimate;
   std::vector<double> errors;
+  std::vector<double> held_errors;  ///< of all scans
 };
 
 Matched match(const std::vector<TrackedScan>& scans) {
   Matched matched;
   for (const TrackedScan& scan : scans) {
+    matched.held_errors.push_back(scan.held_error);
     if (!scan.T_map_sensor) continue;
     matched.truth.push_back(scan.truth);
     matched.estimate.push_back(*scan.T_map_sensor);
@@ -83,7 +89,7 @@ Matched match(const std::vector<TrackedScan>& scans) {
 
 /// One line per scan; without a pose its fields are empty.
 std::string formatScansCsv(const std::vector<TrackedScan>& scans) {
-  std::string text = "scan,stamp,error,rotation_error_rad,translation_error_m\n";
+  std::string text = "scan,stamp,error,rotation_error_rad,translation_error_m,error_or_last_pose\n";
   for (const TrackedScan& scan : scans) {
     text += scan.name + ',' + pcrb::formatStamp(scan.stamp);
     if (scan.error) {
@@ -95,6 +101,8 @@ std::string formatScansCsv(const std::vector<TrackedScan>& scans) {
     } else {
       text += ",,,";
     }
+    text += ',';
+    pcrb::appendShortest(text, scan.held_error);
     text += '\n';
   }
   return text;
@@ -118,8 +126,10 @@ std::string formatEstimateTum(const std::vector<TrackedScan>& scans) {
 }
 
 /// A table: the benchmark's error, APE and RPE with evo's statistics.
-std::string summarizeTracking(const std::vector<TrackedScan>& scans, std::size_t delta,
-                              bool align) {
+std::string summarizeTracking(const std::vector<TrackedScan>& scans,
+                              const TrackingOptions& options) {
+  const std::size_t delta = options.delta;
+  const bool align = options.align;
   const Matched matched = match(scans);
   if (matched.estimate.empty()) {
     throw pcrb::InvalidParameter("found a pose for none of " + std::to_string(scans.size()) +
@@ -136,10 +146,28 @@ std::string summarizeTracking(const std::vector<TrackedScan>& scans, std::size_t
   out << "                     count        rmse        mean      median      stddev         min"
          "         max         sse\n";
   appendRow(out, "error", matched.errors);
+  appendRow(out, "error, lost held", matched.held_errors);
   appendRow(out, "APE translation m", absolute.translation);
   appendRow(out, "APE rotation deg", inDegrees(absolute.rotation));
   appendRow(out, "RPE translation m", relative.translation);
   appendRow(out, "RPE rotation deg", inDegrees(relative.rotation));
+  const auto over_metres =
+      pcrb::relativePoseErrorsOver(matched.truth, matched.estimate, options.metres);
+  const std::string name = "RPE " + pcrb::formatShortest(options.metres) + " m ";
+  appendRow(out, name + "m", over_metres.translation);
+  appendRow(out, name + "deg", inDegrees(over_metres.rotation));
+  const pcrb::Drift drift = pcrb::drift(matched.truth, matched.estimate);
+  if (drift.segments > 0) {
+    out << "drift over " << pcrb::formatShortest(drift.lengths.front()) << " to "
+        << pcrb::formatShortest(drift.lengths.back()) << " m: t_rel "
+        << pcrb::formatFixed(drift.translation_percent, 4) << " %, r_rel "
+        << pcrb::formatFixed(drift.rotation_degrees_per_metre, 6) << " deg/m\n";
+  }
+  const std::size_t lost = scans.size() - matched.estimate.size();
+  if (lost > 0) {
+    out << "lost " << lost << " of " << scans.size()
+        << " scans; in `lost held` each counts with the last pose before it\n";
+  }
   return out.str();
 }
 
@@ -178,9 +206,9 @@ pcrb::DatasetCloud readScan(const TrackingOptions& options, const std::string& n
   return cloud;
 }
 
-/// One scan against its pose, both relative to an origin near the scan.
-void score(const pcrb::DatasetCloud& cloud, const pcrb::ScanList& list,
-           const pcrb::Transform& T_map_sensor, TrackedScan& scan) {
+/// One scan against a pose, both relative to an origin near the scan.
+pcrb::PoseError errorOf(const pcrb::DatasetCloud& cloud, const pcrb::ScanList& list,
+                        const pcrb::Transform& T_map_sensor) {
   const Eigen::Vector3d origin = pcrb::chooseLocalOrigin(cloud);
   const auto inLocal = [&origin](pcrb::Transform T) {
     T.translation() -= origin;
@@ -189,13 +217,41 @@ void score(const pcrb::DatasetCloud& cloud, const pcrb::ScanList& list,
   pcrb::Transform estimate = T_map_sensor;
   estimate.translation() += list.local_origin;
   const pcrb::Metric metric(pcrb::makeLocal(cloud, origin));
-  scan.error = metric.evaluate(inLocal(estimate) * inLocal(cloud.viewpoint).inverse());
-  scan.T_map_sensor = T_map_sensor;
+  return metric.evaluate(inLocal(estimate) * inLocal(cloud.viewpoint).inverse());
 }
 
+/// Where the scans' points are, from above: occupied squares of a grid in the map's frame.
+class TopView {
+ public:
+  void add(const pcrb::DatasetCloud& cloud, const Eigen::Vector3d& local_origin) {
+    for (const auto& point : cloud.points) {
+      const Eigen::Vector3d p = (point - local_origin) / kSquare;
+      squares_.insert({std::floor(p.x()), std::floor(p.y())});
+    }
+  }
+
+  /// `x,y` of each square's middle, m.
+  std::string csv() const {
+    std::string text = "x,y\n";
+    for (const auto& [x, y] : squares_) {
+      pcrb::appendShortest(text, (x + 0.5) * kSquare);
+      text += ',';
+      pcrb::appendShortest(text, (y + 0.5) * kSquare);
+      text += '\n';
+    }
+    return text;
+  }
+
+ private:
+  static constexpr double kSquare = 0.5;  // m
+  std::set<std::pair<double, double>> squares_;
+};
+
 TrackedScan track(const TrackingOptions& options, const pcrb::ScanList& list,
-                  const pcrb::Trajectory& trajectory, pcrb::Stamp stamp, const std::string& name) {
+                  const pcrb::Trajectory& trajectory, pcrb::Stamp stamp, const std::string& name,
+                  std::optional<pcrb::Transform>& last, TopView& view) {
   const pcrb::DatasetCloud cloud = readScan(options, name);
+  view.add(cloud, list.local_origin);
   TrackedScan scan;
   scan.name = name;
   scan.stamp = stamp;
@@ -203,34 +259,44 @@ TrackedScan track(const TrackingOptions& options, const pcrb::ScanList& list,
   scan.truth.translation() -= list.local_origin;
   const pcrb::StampedPose& nearest = trajectory.nearest(stamp);
   if (std::abs(nearest.stamp - stamp) <= pcrb::toStamp(options.max_difference)) {
-    score(cloud, list, nearest.T_world_body * options.T_body_sensor, scan);
+    scan.T_map_sensor = nearest.T_world_body * options.T_body_sensor;
+    scan.error = errorOf(cloud, list, *scan.T_map_sensor);
+    last = scan.T_map_sensor;
   }
+  if (!last) last = scan.truth;  // a tracker gets the first pose
+  scan.held_error = scan.error ? scan.error->error : errorOf(cloud, list, *last).error;
   return scan;
 }
 
 }  // namespace
 
-void runTrackingScoring(const TrackingOptions& options, std::ostream& out) {
+bool runTrackingScoring(const TrackingOptions& options, std::ostream& out) {
   const Interruption interruption;
   const pcrb::ScanList list = listOf(options);
   const pcrb::Trajectory trajectory =
       toTrajectory(readPoses(options.poses.path, options.poses.topic, options.poses.map_frame),
                    options.poses.path);
   std::vector<TrackedScan> scans;
+  std::optional<pcrb::Transform> last;
+  TopView view;
   Progress progress(fs::path(options.folder).filename().string(), "scans", list.scans.size());
   for (const auto& [stamp, name] : list.scans) {
     Interruption::check();
-    scans.push_back(track(options, list, trajectory, stamp, name));
+    scans.push_back(track(options, list, trajectory, stamp, name, last, view));
     progress.add();
   }
   progress.finish();
-  const std::string summary = summarizeTracking(scans, options.delta, options.align);
+  const std::string summary = summarizeTracking(scans, options);
   fs::create_directories(options.output);
   pcrb::writeFileAtomically(options.output + "/scans.csv", formatScansCsv(scans));
   pcrb::writeFileAtomically(options.output + "/truth.tum", formatTruthTum(scans));
   pcrb::writeFileAtomically(options.output + "/estimate.tum", formatEstimateTum(scans));
+  pcrb::writeFileAtomically(options.output + "/map.csv", view.csv());
   pcrb::writeFileAtomically(options.output + "/summary.txt", summary);
   out << summary << std::flush;
+  const auto lost = static_cast<double>(std::count_if(
+      scans.begin(), scans.end(), [](const TrackedScan& scan) { return !scan.T_map_sensor; }));
+  return lost <= options.max_lost * static_cast<double>(scans.size());
 }
 
 }  // namespace pcrb_tools

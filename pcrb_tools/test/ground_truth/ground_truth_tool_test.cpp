@@ -47,6 +47,29 @@ TEST(GroundTruthTool, GivesThePapersTable1FromThePublishedMisalignments) {
   EXPECT_EQ(readText(folder.file("ground_truth.txt")), text);
 }
 
+TEST(GroundTruthTool, DrawsThePapersFigure2WithItsNumbers) {
+  PCRB_REQUIRE_SHARED_DATA();
+  const pcrb_test::TemporaryFolder folder;
+  GroundTruthOptions options;
+  options.output = folder.path();
+  options.imports = {"eth=" + pcrb_test::sharedData() + "/ground_truth_check/apartment.csv"};
+  std::ostringstream out;
+  runGroundTruthTool(options, out);
+  const std::string svg = readText(folder.file("ground_truth_pairs.svg"));
+  // numpy's mean and std of norms of translations, and of angles, of that file's rows
+  EXPECT_NE(svg.find("translation (m): 0.064 ± 0.034"), std::string::npos);
+  EXPECT_NE(svg.find("rotation (°): 0.957 ± 0.497"), std::string::npos);
+  EXPECT_NE(svg.find("misalignment (m): "), std::string::npos);
+  EXPECT_NE(svg.find("100 pairs"), std::string::npos);
+  std::size_t dots = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos;
+       at = svg.find("<circle", at + 1)) {
+    ++dots;
+  }
+  EXPECT_GT(dots, 380u);
+  EXPECT_LE(dots, 400u);
+}
+
 /// Sample logs of one sequence whose ground truth is wrong by a known length, converted, with all
 /// ordered pairs of clouds as problems.
 class WrongGroundTruth : public ::testing::Test {
@@ -174,7 +197,7 @@ TEST_F(WrongGroundTruth, OfPairsThatCannotBeAlignedIsUnknownAndStopsNoOther) {
   EXPECT_NE(pairs.find(",,,,,,,,few.pcd," + a + ",\"source: found 2 points"), std::string::npos)
       << pairs;
   const std::string csv = options_.output + "/ground_truth.csv";
-  EXPECT_NE(readText(csv).find("eth,hut,1,1,0,,,,0\n"), std::string::npos) << readText(csv);
+  EXPECT_NE(readText(csv).find("eth,hut,1,1,0,,,,0,,,,\n"), std::string::npos) << readText(csv);
   const auto floors = readGroundTruth(csv);
   ASSERT_EQ(floors.size(), 1U);
   EXPECT_EQ(floors.front().sequence, "apartment");

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "pcrb_core/io/pcd.hpp"
@@ -74,6 +75,49 @@ TEST_F(ProblemDetailsTest, AreTheErrorsOfTheReplyAlongAndAboutEachAxis) {
   const std::array<double, 6> expected{0.1, 0.0, -0.3, 0.0, 0.0, 0.02};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(components[i], expected[i], 1e-4) << i;
   EXPECT_GT(entry_.problems[0].error_per_metre.value(), 1.0 / 20.0);
+}
+
+TEST_F(ProblemDetailsTest, JudgeTheCovarianceOfTheReplyAgainstItsErrorInTheTargetsFrame) {
+  // The reply is the truth moved by (0.1, 0, −0.3) and 0.02 rad about the source's centroid: at its
+  // own position that is another translation, which an exact covariance must be compared with.
+  entry_.problems[0].covariance.emplace();
+  for (std::size_t i = 0; i < 6; ++i) (*entry_.problems[0].covariance)[7 * i] = 1.0;
+  (*entry_.problems[0].covariance)[35] = 0.01 * 0.01;
+  addComponents();
+  const auto judged = entry_.problems[0].judged.value();
+  EXPECT_EQ(judged.degrees, 6);
+  EXPECT_NEAR(judged.normalized[5].value(), 2.0, 1e-3);
+  EXPECT_NEAR(judged.normalized[3].value(), 0.0, 1e-4);
+  const pcrb::Transform reply = *entry_.problems[0].reply;
+  const Eigen::Vector3d center = pcrb::centroid(cloud_) - pcrb::chooseLocalOrigin(cloud_);
+  const Eigen::Vector3d at_centroid(0.1, 0.0, -0.3);
+  const Eigen::AngleAxisd turn(0.02, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d truth =  // of the reply's position
+      turn.inverse() * (reply.translation() - center - at_centroid) + center;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(judged.normalized[static_cast<std::size_t>(i)].value(),
+                (reply.translation() - truth)[i], 1e-3)
+        << i;
+  }
+}
+
+TEST_F(ProblemDetailsTest, LeaveACovarianceUnjudgedThatIsNone) {
+  entry_.problems[0].covariance.emplace();
+  (*entry_.problems[0].covariance)[0] = -1.0;
+  addComponents();
+  EXPECT_FALSE(entry_.problems[0].judged);
+}
+
+TEST_F(ProblemDetailsTest, KnowTheRangeOfOverlapsThatPairsWereDrawnFrom) {
+  const ProblemDetails details(folder_.path());
+  EXPECT_FALSE(details.overlapRangeOf("own", "yard", pcrb::Kind::kLocal));
+  std::ofstream(folder_.file("own/yard_overlap.txt"))
+      << "overlap a.pcd b.pcd c.pcd\na.pcd 1 0.45 0.9\nb.pcd 0.3 1 0.75\nc.pcd nan 0.5 1\n";
+  const auto range = details.overlapRangeOf("own", "yard", pcrb::Kind::kLocal);
+  ASSERT_TRUE(range);
+  EXPECT_EQ(range->min, 0.45);
+  EXPECT_EQ(range->max, 0.9);
+  EXPECT_EQ(details.overlapRangeOf("own", "yard", pcrb::Kind::kGlobal)->min, 0.75);
 }
 
 TEST_F(ProblemDetailsTest, AreUnknownOfAProblemWithoutAReply) {

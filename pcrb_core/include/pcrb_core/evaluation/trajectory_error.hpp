@@ -33,6 +33,28 @@ PoseErrors absolutePoseErrors(const Poses& reference, const Poses& estimate);
 /// @throws InvalidParameter  as absolutePoseErrors(), and if delta is 0.
 PoseErrors relativePoseErrors(const Poses& reference, const Poses& estimate, std::size_t delta);
 
+/// The same of the motions over at least `metres` of the reference's path, one behind the other.
+///
+/// @throws InvalidParameter  as absolutePoseErrors(), and unless metres > 0.
+PoseErrors relativePoseErrorsOver(const Poses& reference, const Poses& estimate, double metres);
+
+/// Drift as KITTI's odometry benchmark measures it: of each motion from every `step`-th pose over
+/// more than each of some lengths of the reference's path, the error by that length; their mean.
+struct Drift {
+  std::size_t segments = 0;                 ///< 0: no path is that long, the others are NaN
+  std::vector<double> lengths;              ///< m, of the path
+  double translation_percent = 0.0;         ///< t_rel, of the length
+  double rotation_degrees_per_metre = 0.0;  ///< r_rel
+};
+
+/// @param lengths  m, each > 0; empty = KITTI's 100, 200 … 800 m, divided by 10 until 8 of them are
+///                 not longer than the path.
+/// @param step     0 = KITTI's 10, or 1 for fewer than 100 poses.
+/// @throws InvalidParameter  as absolutePoseErrors(), and for a length that is not > 0.
+/// Source: Geiger, Lenz, Urtasun, CVPR 2012, and the devkit of the odometry benchmark.
+Drift drift(const Poses& reference, const Poses& estimate, std::vector<double> lengths = {},
+            std::size_t step = 0);
+
 /// The estimate moved as a whole, rigidly, such that the sum of its squared position errors is
 /// least.
 ///

@@ -39,14 +39,19 @@ std::vector<CloudPair> eligiblePairs(const OverlapMatrix& matrix, Kind kind);
 /// @throws InvalidProblem  if there is no pair.
 std::vector<std::size_t> overlapIntervals(const std::vector<CloudPair>& pairs);
 
+/// Where the pairs come from that an interval lacks.
+enum class TopUp {
+  kEven,  ///< from the intervals with the fewest drawn pairs that have some left
+  kPaper  ///< from all that are left, whatever their interval: dense intervals get more
+};
+
 /// Draws pairs evenly from the ten intervals of their overlaps, without replacement.
 ///
-/// Ten pairs (for 100) come from each interval; what an interval lacks is drawn from those with the
-/// fewest drawn pairs that have some left. Pairs repeat only when there are fewer than `count`: all
+/// Ten pairs (for 100) come from each interval; what an interval lacks, as TopUp says. Pairs repeat only when there are fewer than `count`: all
 /// are drawn once before any is drawn again. The result is sorted by interval.
 /// @throws InvalidProblem  if there is no pair.
 /// Source: Fontana et al. 2021, section 3.3.
 std::vector<CloudPair> samplePairs(const std::vector<CloudPair>& eligible, std::size_t count,
-                                   Random& random);
+                                   Random& random, TopUp top_up = TopUp::kEven);
 
 }  // namespace pcrb

@@ -57,20 +57,33 @@ class ParameterReader {
 /// value holds what is different for the data set of that name, and only names that the file has at
 /// its top level:
 ///
-///     voxel_leaf: 0.2            # m
-///     tum: {voxel_leaf: 0.1}     # m
+///     voxel_leaf: data_set       # m
+///     seed: 1
+///     tum: {seed: 2}
+///
+/// `data_set` as the value of `voxel_leaf`, or another name that ends in `_leaf`, stands for the
+/// leaf of the problem's data set. `method: NAME` says which method the parameters are for, where
+/// the file has another name.
 class MethodParameters {
  public:
   /// @throws InvalidFile  with file and line, what was found and what was expected.
   explicit MethodParameters(const std::string& path);
 
-  /// @param data_set  e.g. `tum`; one that the file does not mention gets the top level's values.
-  Parameters of(const std::string& data_set) const;
+  /// @param data_set    e.g. `tum`; one that the file does not mention gets the top level's values.
+  /// @param voxel_leaf  m, of the data set: Dataset::voxel_leaf, or that of pcrb_msgs/Problem.
+  Parameters of(const std::string& data_set, double voxel_leaf) const;
+
+  /// The method that the file is for; empty where it does not say.
+  const std::string& method() const { return method_; }
+
+  /// The same with `data_set` where the file says so.
+  Parameters asWritten(const std::string& data_set) const;
 
   /// Those that the file mentions, sorted.
   std::vector<std::string> dataSets() const;
 
  private:
+  std::string method_;
   Parameters values_;
   std::map<std::string, Parameters> overrides_;  // by data set
 };

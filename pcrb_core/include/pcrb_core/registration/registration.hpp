@@ -2,11 +2,13 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/point_cloud.hpp"
+#include "pcrb_core/pose_covariance.hpp"
 #include "pcrb_core/transform.hpp"
 
 namespace pcrb {
@@ -18,6 +20,8 @@ struct RegistrationResult {
   std::string reason;      ///< why not, where it did not converge; else empty
   int iterations = 0;
   double solver_time = 0.0;  ///< s of align(), steady clock; set by align() itself
+  /// Of T_target_source, about the axes of the target's frame; nothing where the method knows none.
+  std::optional<PoseCovariance> covariance;
 };
 
 /// A method has no answer for a pair of clouds, say for lack of matching features.

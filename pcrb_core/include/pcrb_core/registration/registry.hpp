@@ -19,7 +19,7 @@ using RegistrationFactory = std::function<std::unique_ptr<Registration>(Paramete
 /// alignments of what passes between them. Processor flags (-march=native, -mavx512f) change none
 /// of it, other flags may (-D_GLIBCXX_DEBUG), and so does another release.
 using RegistrationLayout = std::array<std::uint32_t, 6>;
-constexpr std::uint32_t kRegistrationInterface = 2;
+constexpr std::uint32_t kRegistrationInterface = 3;
 constexpr RegistrationLayout kRegistrationLayout{
     kRegistrationInterface,      sizeof(Registration), sizeof(RegistrationResult),
     alignof(RegistrationResult), sizeof(PointCloud),   alignof(PointCloud)};

@@ -42,6 +42,7 @@ struct RunInfo {
   std::string code_version;
   std::map<std::string, std::string> problem_files;  ///< `<data set>/<file>` → hash
   std::map<std::string, std::string> drawn_by;       ///< of those that a tool drew: its name
+  std::map<std::string, std::string> voxel_leaves;   ///< m, as text, by data set
   std::map<std::string, std::string> clouds;  ///< path below the root → hash, of those used
   std::optional<Secret> secret;
   std::optional<double> created;        ///< s since the epoch

@@ -56,6 +56,7 @@ struct RunPlan {
   std::vector<PlannedProblem> problems;              ///< in the order of the problem files
   std::map<std::string, std::string> problem_files;  ///< `<data set>/<file>` → hash
   std::map<std::string, std::string> drawn_by;       ///< of those that a tool drew: its name
+  std::map<std::string, std::string> voxel_leaves;   ///< m, as text, by data set
 };
 
 /// Reads the selected problem files; draws the subset and the shard.

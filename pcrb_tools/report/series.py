@@ -1,0 +1,32 @@
+"""Charts of sweeps: the median error over the values of a parameter."""
+import charts
+from svg import Chart, Linear, Logarithmic, error, interval
+
+
+def sweeps(table):
+    """A chart per series and parameter whose values are numbers."""
+    groups = {}
+    for row in charts.rows_of(table):
+        if isinstance(row['value'], (int, float)):
+            groups.setdefault((row['series'], row['parameter']), []).append(row)
+    return [{'name': f'{series}: error over {parameter}', 'svg': curve(parameter, rows)}
+            for (series, parameter), rows in groups.items()]
+
+
+def curve(parameter, rows):
+    rows = sorted(rows, key=lambda row: row['value'])
+    values = [row['value'] for row in rows]
+    is_wide = values[0] > 0 and values[-1] > 20 * values[0]
+    x = Logarithmic(values[0] / 1.2, values[-1] * 1.2) if is_wide else Linear(min(values), max(max(values), min(values) + 1e-9))
+    ends = [row[name] for row in rows for name in ('low', 'median', 'high') if row[name] is not None]
+    low, high = max(min(ends), charts.SMALLEST), max(max(ends), 2 * charts.SMALLEST)
+    chart = Chart(x, Logarithmic(low / 1.3, high * 1.3), parameter, 'median error', label=f'error over {parameter}')
+    color = charts.COLORS[0]
+    known = [row for row in rows if row['low'] is not None]
+    if len(known) > 1:
+        chart.band([(row['value'], row['low']) for row in known], [(row['value'], row['high']) for row in known], color)
+    chart.curve([(row['value'], row['median']) for row in rows], color)
+    for row in rows:
+        text = f'95 % interval {interval(row["low"], row["high"])}' if row['low'] is not None else 'too few pairs for an interval'
+        chart.dot(row['value'], row['median'], color, f'{parameter} {row["value"]:g}: median {error(row["median"])}, {text}')
+    return chart.svg()
