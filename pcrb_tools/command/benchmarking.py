@@ -53,7 +53,7 @@ class Benchmark:
             return [f'--root: found no problem file below {values["root"]}, expected DATA_SET/SEQUENCE_{values["kind"]}.txt '
                     '(pcrb prepare makes them)']
         _, mistakes = places.select(values['sequences'], known, values['root'])
-        return mistakes + method_mistakes(values) + master_mistakes(values)
+        return mistakes + encoding_mistakes(values) + method_mistakes(values) + master_mistakes(values)
 
     def arguments(self, options, values):
         always = ('root', 'time-limit')
@@ -74,6 +74,13 @@ class Benchmark:
             print(f'\nlook at the worst:  pcrb replay --run {shown} --order worst --rviz\n'
                   f'make the report:    pcrb report {shown} --output {report}')
         return status
+
+
+def encoding_mistakes(values):
+    """What roslaunch is given goes to the ROS master, as XML."""
+    shown = {name: os.fsencode(value).decode(errors='replace') for name, value in values.items() if isinstance(value, str)}
+    return [f'--{name}: found `{text}`, expected UTF-8: roslaunch takes no other bytes in a path'
+            for name, text in shown.items() if text != values[name]]
 
 
 def method_mistakes(values):
@@ -116,7 +123,7 @@ CLIENT_LAUNCH = '''<launch>
     <arg name="client" value="false"/>
     <arg name="under_test" value={name}/>
   </include>
-  <node ns="pcrb" name="client" pkg="pcrb_tools" type="run_command" args={args} output="screen"/>
+  <node ns="/pcrb" name="client" pkg="pcrb_tools" type="run_command" args={args} output="screen"/>
 </launch>
 '''
 

@@ -13,6 +13,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_server/topics.hpp"
+#include "ros/topic_peers.hpp"
 
 namespace pcrb {
 
@@ -27,6 +28,14 @@ std::string joinNames(const std::set<std::string>& names) {
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : " ") + name;
   return text.empty() ? "nobody" : text;
+}
+
+/// Who subscribed; where nobody did, also who waits in another namespace.
+std::string describeListeners(const std::set<std::string>& names) {
+  std::string text = joinNames(names);
+  if (!names.empty()) return text;
+  for (const auto& node : subscribersElsewhere(topics::kProblem)) text += "; but " + node;
+  return text;
 }
 
 double secondsSince(Clock::time_point start) {
@@ -66,7 +75,8 @@ bool RunClients::waitForReady() {
     if (wait != ProblemSession::Wait::kLimit) break;
     if (rest <= kReminderPeriod) giveUp(limit, is_first);
     std::cout << "waiting for a client to call " << ros::names::resolve(services::kReady)
-              << " (subscribed: " << joinNames(publications_.listeners()) << ")" << std::endl;
+              << " (subscribed: " << describeListeners(publications_.listeners()) << ")"
+              << std::endl;
   }
   if (!session_.client().empty()) note({session_.client()});  // empty: it was skipped
   return true;
@@ -76,7 +86,7 @@ void RunClients::giveUp(double limit, bool is_first) const {
   throw Error("no client called `" + ros::names::resolve(services::kReady) + "` within " +
               formatShortest(limit) + " s (" + (is_first ? "~connect_limit" : "~ready_limit") +
               "; subscribed to `" + ros::names::resolve(topics::kProblem) +
-              "`: " + joinNames(publications_.listeners()) +
+              "`: " + describeListeners(publications_.listeners()) +
               "); results so far are kept: start again with the same ~run to go on");
 }
 
