@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Names what failed or was skipped in the JUnit files below the given folders, then counts.
+"""Names what failed or was skipped in the given JUnit files, and those below the given folders, then counts.
 
 The last line is `N passed, N failed, N skipped`. Exit status 1 if a test failed, if a file cannot
 be read, or if no test passed. (catkin_test_results counts every gtest twice and passes over files
@@ -30,8 +30,8 @@ def outcomes(file):
 
 def main():
     counts = {"passed": 0, "failed": 0, "skipped": 0}
-    for folder in sys.argv[1:]:
-        for file in sorted(pathlib.Path(folder).rglob("*.xml")):
+    for path in map(pathlib.Path, sys.argv[1:]):
+        for file in sorted(path.rglob("*.xml")) if path.is_dir() else [path]:
             for outcome, name, message in outcomes(file):
                 counts[outcome] += 1
                 if outcome != "passed":

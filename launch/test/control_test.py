@@ -53,7 +53,7 @@ class ControlTest(TestCase):
     def test_start_pause_and_skip(self):
         server = self.server(self.data, autostart=False, time_limit=60.0, allow_skipped=True)
         client = self.client(server)
-        server.wait_for_output('problems')
+        server.wait_for_output(f'waiting for the service {server.namespace}/benchmark_server/start: ~autostart is false')
         problem = self.start_and_next_problem(server, client)
         client.take_source(problem)
         self.assertTrue(server.call('benchmark_server/pause', Trigger).success)

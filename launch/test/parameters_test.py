@@ -2,6 +2,7 @@
 """What benchmark_server refuses: parameters, run folders, data. Each time with a message that tells all."""
 import contextlib
 import os
+import re
 import sqlite3
 import sys
 
@@ -167,6 +168,21 @@ class ParametersTest(TestCase):
             store.execute("DELETE FROM result WHERE sequence = 'hall'")
         self.assertEqual(len(first.rows()), len(self.data.of('local', 'kitchen')))
         self.assert_goes_on_with_the_same_file_only(first)
+
+    def test_a_run_goes_on_only_with_the_pcl_that_its_results_are_from(self):
+        first = self.server(self.data, sequences='kitchen', summary_hold_time=60.0)
+        node = self.registration_node(first)
+        self.assert_ends_well(node)
+        self.assert_ends_well(first)
+        parameters = run_info(first.run)['client_parameters']
+        pcl = re.search(r'^pcl: \d+\.\d+\.\d+, (float|double)$', parameters, re.MULTILINE)
+        self.assertTrue(pcl, parameters)
+        with contextlib.closing(sqlite3.connect(os.path.join(first.run, 'results.sqlite'))) as store, store:
+            store.execute("UPDATE run SET value = ? WHERE key = 'client_parameters'",
+                          [parameters.replace(pcl[0], 'pcl: 1.9.0, float')])
+        server = self.start(first.again())
+        self.start(Child(node.command, server.namespace))
+        self.assert_fails(server, f'client_parameters: the run has `pcl: 1.9.0, float`, asked for `{pcl[0]}`')
 
     def test_what_a_node_set_itself_is_no_mistake_when_it_starts_again(self):
         server = self.server(self.data, sequences='kitchen', summary_hold_time=60.0)

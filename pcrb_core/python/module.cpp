@@ -6,9 +6,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <exception>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pcrb_core/error.hpp"
@@ -207,14 +209,38 @@ std::map<std::string, std::string> readRunInfo(const std::string& folder) {
   return info;
 }
 
+/// Raises a class of this module. A message may name a path of any bytes: Python's own escapes.
+void raise(const char* name, const std::exception& error) {
+  const py::object type = py::module::import("pcrb._pcrb").attr(name);
+  const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(error.what()));
+  PyErr_SetObject(type.ptr(), text.ptr());
+}
+
+void translate(std::exception_ptr thrown) {
+  try {
+    std::rethrow_exception(std::move(thrown));
+  } catch (const pcrb::InvalidFile& error) {
+    raise("InvalidFile", error);
+  } catch (const pcrb::InvalidProblem& error) {
+    raise("InvalidProblem", error);
+  } catch (const pcrb::InvalidParameter& error) {
+    raise("InvalidParameter", error);
+  } catch (const pcrb::StoreError& error) {
+    raise("StoreError", error);
+  } catch (const pcrb::Error& error) {
+    raise("Error", error);
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_pcrb, module) {
-  const auto base = py::register_exception<pcrb::Error>(module, "Error", PyExc_RuntimeError);
-  py::register_exception<pcrb::InvalidFile>(module, "InvalidFile", base);
-  py::register_exception<pcrb::InvalidProblem>(module, "InvalidProblem", base);
-  py::register_exception<pcrb::InvalidParameter>(module, "InvalidParameter", base);
-  py::register_exception<pcrb::StoreError>(module, "StoreError", base);
+  const py::exception<pcrb::Error> base(module, "Error", PyExc_RuntimeError);
+  py::exception<pcrb::InvalidFile>(module, "InvalidFile", base);
+  py::exception<pcrb::InvalidProblem>(module, "InvalidProblem", base);
+  py::exception<pcrb::InvalidParameter>(module, "InvalidParameter", base);
+  py::exception<pcrb::StoreError>(module, "StoreError", base);
+  py::register_exception_translator(&translate);
   module.def("error", [](const Array& aligned, const Array& ground_truth) {
     return pcrb::error(toCloud(aligned).points, toCloud(ground_truth).points);
   });

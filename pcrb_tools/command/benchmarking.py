@@ -57,7 +57,8 @@ class Benchmark:
             return [f'--root: found no problem file below {values["root"]}, expected DATA_SET/SEQUENCE_{values["kind"]}.txt '
                     '(pcrb prepare makes them)']
         _, mistakes = places.select(values['sequences'], known, values['root'])
-        return mistakes + method_mistakes(values) + recipes.mistakes(values.get('node')) + master_mistakes(values)
+        return (mistakes + encoding_mistakes(values) + method_mistakes(values) + recipes.mistakes(values.get('node')) +
+                master_mistakes(values))
 
     def arguments(self, options, values):
         always = ('root', 'time-limit')
@@ -89,6 +90,13 @@ def result_of_series(run):
     """The results of each run of a series, by its folder."""
     with open(os.path.join(run, 'series.csv'), encoding='utf-8', newline='') as file:
         return {'run': run, 'runs': [{**row, **result_of(os.path.join(run, row['folder']))} for row in csv.DictReader(file)]}
+
+
+def encoding_mistakes(values):
+    """What roslaunch is given goes to the ROS master, as XML."""
+    shown = {name: os.fsencode(value).decode(errors='replace') for name, value in values.items() if isinstance(value, str)}
+    return [f'--{name}: found `{text}`, expected UTF-8: roslaunch takes no other bytes in a path'
+            for name, text in shown.items() if text != values[name]]
 
 
 def method_mistakes(values):
@@ -138,7 +146,7 @@ CLIENT_LAUNCH = '''<launch>
     <arg name="client" value="false"/>
     <arg name="under_test" value={name}/>
   </include>
-  <node ns="pcrb" name="client" pkg="pcrb_tools" type="run_command" args={args} output="screen"/>
+  <node ns="/pcrb" name="client" pkg="pcrb_tools" type="run_command" args={args} output="screen"/>
 </launch>
 '''
 

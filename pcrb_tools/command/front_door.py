@@ -16,6 +16,7 @@ GROUPS = {'data': 'Data', 'run': 'Runs', 'results': 'Results', 'look': 'Look at 
 
 
 def main(words):
+    sys.stdout.reconfigure(errors='surrogateescape')  # a path may be of any bytes
     try:
         return dispatch(words)
     except UsageError as error:

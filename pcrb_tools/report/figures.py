@@ -37,6 +37,16 @@ def grid(count, columns, height):
     return figure, flat[:count]
 
 
+def label_all(figure, axes, x_name, y_name):
+    """One name for all axes; matplotlib before 3.4 has none of a figure's, there the outer axes take it."""
+    if hasattr(figure, 'supxlabel'):
+        figure.supxlabel(x_name, fontsize=8)
+        figure.supylabel(y_name, fontsize=8)
+    else:
+        axes[0].set_ylabel(y_name)
+        axes[-1].set_xlabel(x_name)
+
+
 def medians(section, colors):
     """Dots with their intervals on a logarithmic axis."""
     groups = charts.medians_of(charts.rows_of(section['tables']['scores']))
@@ -50,7 +60,8 @@ def medians(section, colors):
             if row['low'] is not None:
                 axis.plot([x, x], [max(row[side], charts.SMALLEST) for side in ('low', 'high')], color=color, linewidth=1)
             axis.plot([x], [max(row['median'], charts.SMALLEST)], color=color, marker='o', markersize=3)
-    axis.set_xticks(range(len(groups)), groups, rotation=35, ha='right')
+    axis.set_xticks(range(len(groups)))
+    axis.set_xticklabels(groups, rotation=35, ha='right')
     axis.grid(axis='x', visible=False)
     axis.set(yscale='log', ylabel='median error')
     axis.legend(handles=handles_of(colors), ncol=len(colors), loc='lower center', bbox_to_anchor=(0.5, 1.0))
@@ -99,8 +110,7 @@ def histograms(panels, method, color):
             axis.plot(x, [total * width * charts.gaussian(v, histogram['mean'], histogram['stddev']) for v in x],
                       color='#444444', linewidth=0.8)
         axis.set(title=name, xlim=(0, histogram['max']))
-    figure.supxlabel('error', fontsize=8)
-    figure.supylabel('problems', fontsize=8)
+    label_all(figure, axes, 'error', 'problems')
     return figure
 
 
@@ -110,8 +120,7 @@ def overlaps(panels):
         edges = charts.overlap_edges(panel)
         axis.bar(edges[:-1], panel['counts'], edges[1] - edges[0], align='edge', color='#7c8aa0')
         axis.set(title=panel['selection'], xlim=(0, 1))
-    figure.supxlabel('overlap', fontsize=8)
-    figure.supylabel('pairs', fontsize=8)
+    label_all(figure, axes, 'overlap', 'pairs')
     return figure
 
 
@@ -123,7 +132,8 @@ def components(table, colors):
         boxes = [{'med': r['median'], 'q1': r['q25'], 'q3': r['q75'], 'whislo': r['q05'], 'whishi': r['q95']} for r in shown]
         drawn = axis.bxp(boxes, showfliers=False, patch_artist=True, medianprops={'color': 'black'})
         groups = [[i + 1 for i, r in enumerate(shown) if r['axis'] == name] for name in names]
-        axis.set_xticks([sum(group) / len(group) for group in groups if group], [n for n, group in zip(names, groups) if group])
+        axis.set_xticks([sum(group) / len(group) for group in groups if group])
+        axis.set_xticklabels([n for n, group in zip(names, groups) if group])
         for patch, row in zip(drawn['boxes'], shown):
             patch.set_facecolor(colors[row['method']])
         axis.set_ylabel(f'error ({unit})')

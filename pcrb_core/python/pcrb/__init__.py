@@ -100,7 +100,7 @@ def read_pcd(path, threads=1):
     None where the file has none; dropped_non_finite, the number of points that were left out.
     Raises InvalidFile with file and line.
     """
-    return _pcrb.read_pcd(os.fspath(path), threads)
+    return _pcrb.read_pcd(os.fsencode(path), threads)
 
 
 def write_pcd(path, cloud, viewpoint=None):
@@ -109,7 +109,7 @@ def write_pcd(path, cloud, viewpoint=None):
     Raises InvalidFile if it cannot be written completely, InvalidProblem for a point that is not finite.
     """
     rows = np.eye(4)[:3] if viewpoint is None else _rows(viewpoint, 'viewpoint')
-    _pcrb.write_pcd(os.fspath(path), _points(cloud, 'cloud'), rows)
+    _pcrb.write_pcd(os.fsencode(path), _points(cloud, 'cloud'), rows)
 
 
 def read_problems(path):
@@ -119,7 +119,7 @@ def read_problems(path):
     perturbation (4, 4), in the data set's frame.
     Raises InvalidFile with file and line.
     """
-    return _pcrb.read_problems(os.fspath(path))
+    return _pcrb.read_problems(os.fsencode(path))
 
 
 def write_problems(path, problems):
@@ -128,7 +128,7 @@ def write_problems(path, problems):
     Raises InvalidProblem for a row that read_problems would refuse, InvalidFile if the file cannot be written.
     """
     rows = [dict(problem, perturbation=_matrix(problem['perturbation'], 'perturbation')) for problem in problems]
-    _pcrb.write_problems(os.fspath(path), rows)
+    _pcrb.write_problems(os.fsencode(path), rows)
 
 
 def read_results(run):
@@ -141,7 +141,7 @@ def read_results(run):
     T_target_source (nan where there is none).
     Raises StoreError if there is no store that can be read.
     """
-    rows = _pcrb.read_results(os.fspath(run))
+    rows = _pcrb.read_results(os.fsencode(run))
     texts = ('data_set', 'sequence', 'kind', 'problem_id', 'source', 'target', 'outcome', 'reason')
     numbers = ('overlap', 'error', 'initial_misalignment', 'rotation_error_rad', 'translation_error_m', 'runtime_s',
                'solver_time_s')
@@ -157,4 +157,4 @@ def read_results(run):
 
 def read_run_info(run):
     """The table `run` of a run's store: a dict of text. It has the run's secret bits: not for a node under test."""
-    return _pcrb.read_run_info(os.fspath(run))
+    return _pcrb.read_run_info(os.fsencode(run))

@@ -184,6 +184,31 @@ class ResultsTest(unittest.TestCase):
         self.assertEqual(pcrb.read_run_info(self.run_folder), {'seed': '1'})
 
 
+class AnyBytesTest(unittest.TestCase):
+    """A path is bytes: a Latin-1 letter of an old disk is no UTF-8."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = os.path.join(folder.name, os.fsdecode(b'caf\xe9'))
+        os.mkdir(self.folder)
+
+    def test_files_are_written_and_read(self):
+        path = os.path.join(self.folder, 'a.pcd')
+        points = some_points(5)
+        pcrb.write_pcd(path, points)
+        np.testing.assert_array_equal(pcrb.read_pcd(path)['points'], points)
+        np.testing.assert_array_equal(pcrb.read_pcd(pathlib.Path(path))['points'], points)
+        self.assertEqual(os.listdir(self.folder), ['a.pcd'])
+
+    def test_errors_name_the_path(self):
+        for function, error in ((pcrb.read_pcd, pcrb.InvalidFile), (pcrb.read_problems, pcrb.InvalidFile),
+                                (pcrb.read_results, pcrb.StoreError)):
+            with self.assertRaises(error) as raised:
+                function(os.path.join(self.folder, 'none'))
+            self.assertIn(self.folder, str(raised.exception))
+
+
 class DocumentationTest(unittest.TestCase):
     def test_every_public_function_says_what_it_returns_and_raises(self):
         for name in pcrb.__all__:

@@ -161,7 +161,9 @@ FileLock::FileLock(const std::string& path) {
   close(descriptor_);
   descriptor_ = -1;
   if (error != EWOULDBLOCK) {
-    throw InvalidFile(path, std::string("cannot be locked: ") + std::strerror(error));
+    throw InvalidFile(path, std::string("cannot be locked: ") + std::strerror(error) +
+                                ": does its file system refuse locks, as NFS may? Put this folder "
+                                "on a local disk");
   }
 }
 

@@ -1,8 +1,16 @@
 #include "registration/pcl_common.hpp"
 
+#include <type_traits>
+
 #include "pcrb_core/parallel.hpp"
+#include "pcrb_core/registration/registry.hpp"
 
 namespace pcrb {
+
+std::string pclOfMethods() {
+  const bool is_double = std::is_same_v<PclScalar, double>;
+  return std::string(PCL_VERSION_PRETTY) + (is_double ? ", double" : ", float");
+}
 
 PclCloud::Ptr toPcl(const Points& points) {
   PclCloud::Ptr cloud(new PclCloud);

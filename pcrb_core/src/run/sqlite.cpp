@@ -7,6 +7,32 @@
 
 namespace pcrb {
 
+namespace {
+
+/// What is said of failures that have to do with locks: SQLite's own words name no cause.
+const char* causeOfLockFailure(int extended_code) {
+  switch (extended_code) {
+    case SQLITE_IOERR_LOCK:
+    case SQLITE_IOERR_RDLOCK:
+    case SQLITE_IOERR_UNLOCK:
+    case SQLITE_IOERR_CHECKRESERVEDLOCK:
+    case SQLITE_IOERR_SHMLOCK:
+    case SQLITE_IOERR_SHMMAP:
+    case SQLITE_IOERR_SHMOPEN:
+    case SQLITE_IOERR_SHMSIZE:
+      return ": its file system refuses locks or shared memory, as NFS may: put the run's folder "
+             "on a local disk";
+    default:
+      break;
+  }
+  const int code = extended_code & 0xff;
+  if (code != SQLITE_BUSY && code != SQLITE_PROTOCOL) return "";
+  return ": another program holds it, or its file system refuses locks, as NFS may: end that "
+         "program, or put the run's folder on a local disk";
+}
+
+}  // namespace
+
 Database::Database(const std::string& path, int flags, const std::string& uri) : path_(path) {
   constexpr int kBusyTimeoutMs = 5000;  // somebody looks into the store with another program
   sqlite3* handle = nullptr;
@@ -35,7 +61,7 @@ void Database::fail(const std::string& action) const {
   if (system_error != 0 && (code == SQLITE_IOERR || code == SQLITE_CANTOPEN)) {
     message += std::string(" (") + std::strerror(system_error) + ")";
   }
-  throw StoreError(message);
+  throw StoreError(message + causeOfLockFailure(sqlite3_extended_errcode(handle())));
 }
 
 Statement::Statement(Database& database, const std::string& sql, std::string action)

@@ -31,7 +31,7 @@ std::vector<double> numbersOf(const Transform& T) {
 
 std::vector<double> numbersOf(const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> numbers;
-  for (const auto& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
+  for (const auto& point : points) numbers.insert(numbers.end(), point.data(), point.data() + 3);
   return numbers;
 }
 

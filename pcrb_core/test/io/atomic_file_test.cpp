@@ -1,10 +1,13 @@
 #include "pcrb_core/io/atomic_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +15,21 @@
 #include <string>
 
 #include "pcrb_core/error.hpp"
+#include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
+
+namespace {
+
+bool is_lock_refused = false;
+
+}  // namespace
+
+/// In place of the C library's: a file system without a lock service, where a test wants one.
+extern "C" int flock(int descriptor, int operation) {
+  if (!is_lock_refused) return static_cast<int>(syscall(SYS_flock, descriptor, operation));
+  errno = ENOLCK;
+  return -1;
+}
 
 namespace pcrb {
 namespace {
@@ -125,6 +142,15 @@ TEST(FileLock, IsHeldByOneAtATimeAndNamesItToOthers) {
     EXPECT_EQ(second.holder().find("process " + std::to_string(getpid()) + " on "), 0U);
   }
   EXPECT_TRUE(FileLock(path).isHeld());
+}
+
+TEST(FileLock, NamesTheFileSystemThatRefusesLocksAndTheRemedy) {
+  const pcrb_test::TemporaryFolder folder;
+  is_lock_refused = true;
+  pcrb_test::expectError<InvalidFile>([&] { const FileLock lock(folder.file("a.lock")); },
+                                      folder.file("a.lock"), "its file system refuse locks",
+                                      "on a local disk");
+  is_lock_refused = false;
 }
 
 TEST(FileLock, RefusesAFileThatCannotBeMade) {

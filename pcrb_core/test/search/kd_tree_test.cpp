@@ -28,7 +28,7 @@ class KdTreeSearch : public ::testing::Test {
     std::vector<Eigen::Vector3f> points;
     for (std::size_t i = 0; i < count; ++i) {
       Eigen::Vector3f point;
-      for (float& c : point) c = static_cast<float>(random_.uniform());
+      for (int axis = 0; axis < 3; ++axis) point[axis] = static_cast<float>(random_.uniform());
       points.push_back(point);
     }
     return points;

@@ -24,7 +24,7 @@ inline void addRectangle(pcrb::PointCloud& cloud, pcrb::Random& random, std::siz
   for (std::size_t i = 0; i < count; ++i) {
     Eigen::Vector3d point = corner + random.uniform() * u;
     point += random.uniform() * v;  // one draw a statement: the order in an expression is open
-    for (double& c : point) c += noise * random.uniform(-1.0, 1.0);
+    for (int k = 0; k < 3; ++k) point[k] += noise * random.uniform(-1.0, 1.0);
     cloud.points.push_back(point.cast<float>());
   }
 }

@@ -32,9 +32,9 @@ Eigen::Vector3d parseOrigin(const LineReader& reader, std::string_view line) {
 void appendScan(std::string& text, const Scene& scene) {
   if (text.empty()) {
     text = "# scans as they were played: timestamp file\n" + std::string(kOrigin);
-    for (const double coordinate : scene.local_origin) {
+    for (int i = 0; i < 3; ++i) {
       text += ' ';
-      appendShortest(text, coordinate);
+      appendShortest(text, scene.local_origin[i]);
     }
     text += '\n';
   }

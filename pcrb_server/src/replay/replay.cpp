@@ -87,6 +87,7 @@ bool Replay::waitForTurn() {
 }
 
 void Replay::run() {
+  if (!parameters_.autostart) std::cout << describeWaitForStart() << std::endl;
   while (waitForTurn()) {
     show();
     const bool is_last = shown_ % playback_->size() == 0;

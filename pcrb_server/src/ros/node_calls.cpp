@@ -1,6 +1,7 @@
 #include "ros/node_calls.hpp"
 
 #include <ros/master.h>
+#include <ros/names.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <std_srvs/Empty.h>
@@ -58,6 +59,12 @@ ros::ServiceServer offerTrigger(ros::NodeHandle& node, const std::string& name,
         response.message = answer.message;
         return true;
       });
+}
+
+std::string describeWaitForStart() {
+  return "waiting for the service " + ros::names::resolve("~start") +
+         ": ~autostart is false (rosparam delete " + ros::names::resolve("~autostart") +
+         ", if that was left by an earlier one)";
 }
 
 }  // namespace pcrb

@@ -41,4 +41,8 @@ struct TriggerAnswer {
 ros::ServiceServer offerTrigger(ros::NodeHandle& node, const std::string& name,
                                 const std::function<TriggerAnswer()>& action);
 
+/// What a node says that waits for its service `~start`. A master keeps the `_autostart:=false` of
+/// an earlier node of that name.
+std::string describeWaitForStart();
+
 }  // namespace pcrb

@@ -1,6 +1,7 @@
 #include "ros/topic_peers.hpp"
 
 #include <ros/master.h>
+#include <ros/names.h>
 #include <ros/this_node.h>
 
 #include <algorithm>
@@ -73,20 +74,42 @@ std::map<std::string, int> SubscriberNames::departures() const {
   return departures_;
 }
 
-PublishersByTopic publishersByTopic() {
+namespace {
+
+constexpr int kPublishers = 0;  // parts of the master's state
+constexpr int kSubscribers = 1;
+
+std::multimap<std::string, std::string> nodesByTopic(int part) {
   XmlRpc::XmlRpcValue arguments, response, state;
   arguments[0] = ros::this_node::getName();
   if (!ros::master::execute("getSystemState", arguments, response, state, false)) {
     throw Error("the ROS master does not answer");
   }
-  PublishersByTopic publishers;
-  XmlRpc::XmlRpcValue topics = state[0];  // [[topic, [node, …]], …]
+  std::multimap<std::string, std::string> nodes;
+  XmlRpc::XmlRpcValue topics = state[part];  // [[topic, [node, …]], …]
   for (int i = 0; i < topics.size(); ++i) {
     for (int k = 0; k < topics[i][1].size(); ++k) {
-      publishers.emplace(std::string(topics[i][0]), std::string(topics[i][1][k]));
+      nodes.emplace(std::string(topics[i][0]), std::string(topics[i][1][k]));
     }
   }
-  return publishers;
+  return nodes;
+}
+
+}  // namespace
+
+PublishersByTopic publishersByTopic() { return nodesByTopic(kPublishers); }
+
+std::vector<std::string> subscribersElsewhere(const std::string& name) {
+  const std::string own = ros::names::resolve(name);
+  const SubscriberNames observers;
+  std::vector<std::string> found;
+  for (const auto& [topic, node] : nodesByTopic(kSubscribers)) {
+    const bool is_elsewhere = topic != own && topic.substr(topic.rfind('/') + 1) == name;
+    if (is_elsewhere && !observers.isObserver(node)) {
+      found.push_back(node + " subscribes to " + topic);
+    }
+  }
+  return found;
 }
 
 ConflictingPublishers::ConflictingPublishers(std::string self, std::vector<std::string> owned,

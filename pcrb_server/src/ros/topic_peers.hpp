@@ -51,6 +51,11 @@ using PublishersByTopic = std::multimap<std::string, std::string>;
 /// @throws Error  if the master does not answer.
 PublishersByTopic publishersByTopic();
 
+/// Nodes that subscribe to a topic of the name, without its namespace, in another namespace than
+/// this node's, `NODE subscribes to TOPIC`; observers excepted.
+/// @throws Error  if the master does not answer.
+std::vector<std::string> subscribersElsewhere(const std::string& name);
+
 /// Other nodes that publish what this one alone should publish.
 class ConflictingPublishers {
  public:

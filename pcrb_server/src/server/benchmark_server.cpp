@@ -99,6 +99,7 @@ void BenchmarkServer::offerControls() {
 bool BenchmarkServer::run() {
   std::cout << describe(parameters_) << std::endl;
   RunProgress progress(done_, plan_.problems.size());
+  if (is_paused_) std::cout << describeWaitForStart() << std::endl;
   waitForStart();  // also if nothing remains: who starts it wants to read the summary
   const bool has_handshake = parameters_.configuration.handshake == Handshake::kReady;
   if (remaining_.empty() && has_handshake) clients_.checkThoseOfFinishedRun();

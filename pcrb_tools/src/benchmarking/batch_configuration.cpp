@@ -11,6 +11,7 @@
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -61,6 +62,14 @@ bool isInPackage(const BatchOptions& options) {
 std::string launchFile(const BatchOptions& options) {
   if (!isInPackage(options)) return fs::absolute(options.launch).lexically_normal().string();
   return ros::package::getPath("pcrb_launch") + "/" + options.launch;
+}
+
+/// What roslaunch is given goes to the ROS master, as XML.
+void requireUtf8(const std::string& word) {
+  const std::string text = pcrb::printableText(word);
+  if (text == word) return;
+  throw pcrb::InvalidParameter("found `" + text +
+                               "`, expected UTF-8: roslaunch takes no other bytes in a path");
 }
 
 std::string nameOf(const std::string& argument) { return argument.substr(0, argument.find(":=")); }
@@ -139,6 +148,8 @@ std::vector<std::string> launchCommand(const BatchOptions& options) {
     }
     command.push_back(absoluteRoot(argument));
   }
+  std::for_each(command.begin(), command.end(), requireUtf8);
+  requireUtf8(options.run);
   return command;
 }
 

@@ -197,7 +197,7 @@ BatchOptions withAbsolutePaths(BatchOptions options) {
 std::vector<std::string> launchArguments(int argc, char** argv) {
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
+    const std::string argument = withHomeFolder(argv[i]);
     const bool is_of_launch_file = argument.find(":=") != std::string::npos &&
                                    argument.rfind("__", 0) != 0 && argument.rfind(":=", 0) != 0;
     if (is_of_launch_file) arguments.push_back(argument);

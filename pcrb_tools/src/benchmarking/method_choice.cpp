@@ -79,8 +79,11 @@ std::string MethodChoice::inEffect() const {
       if (common.at(name) != value) text += data_set + "/" + name + ": " + value + "\n";
     }
   }
-  if (!plugin_.empty()) text += "plugin: " + pcrb::fileHash(fileOfLibrary(plugin_)) + "\n";
-  return text;
+  const bool is_ours = plugin_.empty();
+  return text +
+         (is_ours ? "pcl: " + pcrb::pclOfMethods()
+                  : "plugin: " + pcrb::fileHash(fileOfLibrary(plugin_))) +
+         "\n";
 }
 
 void MethodChoice::announce() const { ros::param::set(std::string("~") + kInEffect, inEffect()); }

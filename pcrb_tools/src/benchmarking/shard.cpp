@@ -25,11 +25,12 @@ constexpr std::array<const char*, 5> kErrorPrefixes{
 /// Whether roslaunch can write where it keeps files of its own: with HOME unset or read-only it
 /// cannot, and would end without a word.
 bool isRosHomeWritable() {
-  if (std::getenv("ROS_HOME") != nullptr) return true;
+  const char* const given = std::getenv("ROS_HOME");
   const char* const home = std::getenv("HOME");
-  if (home == nullptr) return false;
-  const std::string ros_home = std::string(home) + "/.ros";
-  return ::access(fs::exists(ros_home) ? ros_home.c_str() : home, W_OK) == 0;
+  if (given == nullptr && home == nullptr) return false;
+  const fs::path ros_home = given != nullptr ? fs::path(given) : fs::path(home) / ".ros";
+  const fs::path folder = fs::exists(ros_home) ? ros_home : ros_home.parent_path();
+  return ::access(folder.c_str(), W_OK) == 0;
 }
 
 }  // namespace

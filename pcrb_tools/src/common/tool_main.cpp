@@ -3,6 +3,7 @@
 #include <ros/init.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -28,6 +29,7 @@ std::vector<std::string> argumentsForCli(int argc, char** argv) {
   std::vector<std::string> arguments;
   ros::removeROSArgs(argc, argv, arguments);
   if (!arguments.empty()) arguments.erase(arguments.begin());
+  std::transform(arguments.begin(), arguments.end(), arguments.begin(), withHomeFolder);
   std::reverse(arguments.begin(), arguments.end());
   return arguments;
 }
@@ -88,6 +90,15 @@ void addMemoryOption(CLI::App& app) {
 }
 
 }  // namespace
+
+std::string withHomeFolder(const std::string& word) {
+  const char* const home = std::getenv("HOME");
+  const std::size_t assigned = word.find("=~/");
+  const bool is_value = assigned != std::string::npos && word.find('/') == assigned + 2;
+  const std::size_t tilde = is_value ? assigned + 1 : 0;
+  if (home == nullptr || word.compare(tilde, 2, "~/") != 0) return word;
+  return word.substr(0, tilde) + home + word.substr(tilde + 1);
+}
 
 CLI::Option* addThreadsOption(CLI::App& app, int& threads) {
   constexpr int kMostThreads = 1024;

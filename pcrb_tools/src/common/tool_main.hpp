@@ -26,6 +26,10 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
       ->check(CLI::IsMember(choices));
 }
 
+/// A word of the command line, with the home folder for the ~ that a shell leaves alone in
+/// `--run=~/a` and `root:=~/a`.
+std::string withHomeFolder(const std::string& word);
+
 /// Adds `--threads`, by default one per processor.
 CLI::Option* addThreadsOption(CLI::App& app, int& threads);
 
@@ -39,10 +43,10 @@ bool isKept(const pcrb::DerivedFile& output, bool force);
 /// Parses the command line and runs a tool: what every offline tool's main ends with.
 ///
 /// Arguments that roslaunch appends (`__name:=…`, remappings) are taken away first, which needs no
-/// master; under roslaunch the paths --logs, --root and --run must be absolute; `--help` prints the
-/// help and succeeds. An exception becomes one line on standard error,
-/// `TOOL: what is wrong`, where TOOL is argv[0] without its folder. A write to a closed pipe ends
-/// the process as usual.
+/// master; ~ is the home folder; under roslaunch the paths --logs, --root and --run must be
+/// absolute; `--help` prints the help and succeeds. An exception becomes one line on standard
+/// error, `TOOL: what is wrong`, where TOOL is argv[0] without its folder. A write to a closed pipe
+/// ends the process as usual.
 ///
 /// @param app   the tool's options; its description and its footer are the text of `--help`.
 /// @param body  the work; what it returns is the exit status.

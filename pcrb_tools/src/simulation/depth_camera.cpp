@@ -87,8 +87,8 @@ RgbdFrame takeFrame(const Scene& scene, const DepthCamera& camera,
       frame.depth.push_back(
           depthOf(snapshot, ray, *hit, hit->distance / stretch, projector, random));
       const Vector3d point = ray.origin + hit->distance * ray.direction;
-      for (const float channel : hit->surface.color) {
-        frame.color.push_back(shade(channel, point, hit->normal));
+      for (int channel = 0; channel < 3; ++channel) {
+        frame.color.push_back(shade(hit->surface.color[channel], point, hit->normal));
       }
     }
   }

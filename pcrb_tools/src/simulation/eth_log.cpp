@@ -91,9 +91,9 @@ void appendId(std::string& text, int id, bool decimals) {
 void appendPoint(std::string& text, const CsvStyle& style, const ScanPoint& point,
                  const Vector3d& position, double clock) {
   pcrb::appendFixed(text, clock + point.time, 6);
-  for (const double coordinate : position) {
+  for (int i = 0; i < 3; ++i) {
     text += style.separator;
-    pcrb::appendFixed(text, coordinate, kCoordinateDecimals);
+    pcrb::appendFixed(text, position[i], kCoordinateDecimals);
   }
   text += style.separator;
   text += style.intensities ? std::to_string(std::lround(4000.0 * point.strength)) : "-1";

@@ -49,9 +49,9 @@ std::string errorsText(const std::vector<KnownError>& errors) {
   std::string text = "data_set,sequence,cloud,x,y,z\n";
   for (const KnownError& known : errors) {
     text += known.data_set + "," + known.sequence + "," + known.cloud;
-    for (const double value : known.error) {
+    for (int axis = 0; axis < 3; ++axis) {
       text += ",";
-      pcrb::appendFixed(text, value, 6);
+      pcrb::appendFixed(text, known.error[axis], 6);
     }
     text += "\n";
   }

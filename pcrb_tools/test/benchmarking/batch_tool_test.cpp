@@ -31,6 +31,21 @@ TEST(LaunchArguments, AreThoseOfTheLaunchFileAndNotThoseThatRoslaunchAppends) {
             (Words{"root:=/data", "kind:="}));
 }
 
+TEST(LaunchArguments, AreRefusedWhereRoslaunchTakesNoSuchBytes) {
+  const pcrb_test::TemporaryFolder folder;
+  const char* const expected = "expected UTF-8: roslaunch takes no other bytes in a path";
+  BatchOptions options = optionsIn(folder.path());
+  EXPECT_EQ(launchCommand(options).size(), 5U);
+  options.arguments.push_back("parameters:=/caf\xc3\xa9.yaml");
+  EXPECT_EQ(launchCommand(options).back(), "parameters:=/caf\xc3\xa9.yaml");
+  options.arguments.push_back("plugin:=/caf\xe9.so");
+  pcrb_test::expectError<pcrb::InvalidParameter>([&] { launchCommand(options); },
+                                                 "found `plugin:=/caf\xef\xbf\xbd.so`", expected);
+  options.arguments.pop_back();
+  options.run = folder.file("caf\xe9");
+  pcrb_test::expectError<pcrb::InvalidParameter>([&] { launchCommand(options); }, expected);
+}
+
 TEST(BatchConfiguration, GoesOnWithItsNumberOfShardsWhateverTheJobs) {
   const pcrb_test::TemporaryFolder folder;
   BatchOptions options = optionsIn(folder.path());

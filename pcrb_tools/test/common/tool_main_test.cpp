@@ -79,6 +79,21 @@ TEST(ToolMain, ChoiceTakesItsWordsAndNamesThemToWhoeverGivesAnother) {
   }
 }
 
+TEST(ToolMain, TakesATildeThatTheShellLeftAloneForTheHomeFolder) {
+  const std::string home = std::getenv("HOME") == nullptr ? "/nowhere" : std::getenv("HOME");
+  setenv("HOME", home.c_str(), 1);
+  for (const auto& [word, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"--run=~/runs/a", "--run=" + home + "/runs/a"},
+           {"root:=~/pcrb", "root:=" + home + "/pcrb"},
+           {"mine=~/runs/a", "mine=" + home + "/runs/a"},
+           {"~/runs/a", home + "/runs/a"}}) {
+    EXPECT_EQ(withHomeFolder(word), expected);
+  }
+  for (const std::string word : {"~", "~me/a", "--run=~me/a", "/a=~/b", "./~/a", "a~/b", ""}) {
+    EXPECT_EQ(withHomeFolder(word), word);
+  }
+}
+
 TEST(TemporaryFolder, NamesTheVariableThatLeadsNowhere) {
   const char* const before = std::getenv("TMPDIR");
   const std::string value = before == nullptr ? "" : before;

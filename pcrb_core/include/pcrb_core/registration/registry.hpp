@@ -39,6 +39,10 @@ bool registerMethod(const std::string& name, RegistrationFactory factory,
 /// or was compiled for another layout of the interface.
 std::vector<std::string> loadRegistrationLibrary(const std::string& path);
 
+/// PCL's version that the suite's methods were compiled with, and the number type of its G-ICP and
+/// NDT: `1.13.0, double`. Another one gives other last digits (docs/platforms.md).
+std::string pclOfMethods();
+
 }  // namespace pcrb
 
 #define PCRB_DETAIL_JOIN_(a, b) a##b
