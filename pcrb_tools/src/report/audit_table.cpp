@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "pcrb_core/evaluation/rank_tests.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
@@ -56,7 +60,9 @@ void addOrderCheck(const Entry& entry, std::vector<AuditCheck>& checks) {
     later.insert(later.end(), group.begin() + 1, group.end());
   }
   const pcrb::OrderTest test = pcrb::firstAgainstLater(groups);
-  AuditCheck check{entry.method, "first problem of a pair, later ones"};
+  AuditCheck check;
+  check.method = entry.method;
+  check.check = "first problem of a pair, later ones";
   check.problems = firsts.size() + later.size();
   check.pairs = test.groups;
   check.protected_error = median(firsts);
@@ -100,7 +106,9 @@ std::array<std::vector<double>, 2> sharedMedians(const Entry& plain, const Entry
 }
 
 void addRunCheck(const Entry& plain, const Entry& audited, std::vector<AuditCheck>& checks) {
-  AuditCheck check{plain.method, "run without an audit, " + audited.method};
+  AuditCheck check;
+  check.method = plain.method;
+  check.check = "run without an audit, " + audited.method;
   const auto medians = sharedMedians(plain, audited, check.problems);
   check.pairs = medians[0].size();
   if (check.pairs == 0) return;

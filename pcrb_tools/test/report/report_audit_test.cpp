@@ -3,13 +3,13 @@
 namespace pcrb_tools {
 namespace {
 
-using ErrorOf = double (*)(std::size_t pair, std::size_t place);
+using ErrorOfPlace = double (*)(std::size_t pair, std::size_t place);
 
 /// Runs whose problems are posed pair by pair, and what the report says of memory.
 class ReportAuditTest : public ReportTest {
  protected:
   /// 20 pairs with six problems each, the error of each by its pair and its place in the order.
-  void addPosedRun(const std::string& name, ErrorOf errorOf,
+  void addPosedRun(const std::string& name, ErrorOfPlace errorOf,
                    const std::map<std::string, std::string>& info = {}) {
     const std::string path = folder_.file(name);
     pcrb::ResultsStore store(path, pcrb::ResultsStore::Access::kReadWrite);
@@ -59,7 +59,7 @@ TEST_F(ReportAuditTest, FindsAMethodConsistentThatDoesNotProfitFromEarlierProble
 TEST_F(ReportAuditTest, ReportsAMethodThatSolvesAPairOnceAndUsesItAgain) {
   addPosedRun("reusing", reusing);
   EXPECT_EQ(audit()[0].at("verdict"),
-            "gains by memory: 0.500 on a pair's first problem, 0.120 on later ones");
+            "gains by memory: 0.500 on a pair's first problem, 0.130 on later ones");
 }
 
 TEST_F(ReportAuditTest, ReportsAMethodWhosePlainRunIsBetterThanItsAuditedOne) {
