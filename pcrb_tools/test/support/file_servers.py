@@ -7,6 +7,7 @@ Prints the two ports and serves until its standard input is closed. Paths (http;
   /stuck/NAME     the connection breaks before the first byte, every time
   /flaky/NAME     status 503 twice, then the file
   /whole/NAME     the file, without ranges or ETag
+  /silent/NAME    half of the file without a length, then the connection ends; from then on all of it, without one
   /swap/NAME      half of the file, then the connection breaks; from then on NAME.new
   /shifted/NAME   the file, but to a range always another one
   /moved/NAME     redirection to /files/NAME
@@ -95,6 +96,13 @@ class Http(http.server.BaseHTTPRequestHandler):
         limit = len(data) // 2 if count("whole" + name) == 1 else None
         self.head(200, len(data))
         self.wfile.write(data[:limit])
+
+    def send_silent(self, name, _):
+        data = read(name)
+        self.send_response(200)
+        self.send_header("Connection", "close")
+        self.end_headers()
+        self.wfile.write(data[:len(data) // 2 if count("silent" + name) == 1 else None])
 
     def send_shifted(self, name, _):
         data = read(name)
