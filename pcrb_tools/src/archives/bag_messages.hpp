@@ -32,6 +32,9 @@ class BagMessages {
   void forEach(const std::vector<std::string>& topics,
                const std::function<void(const rosbag::MessageInstance&)>& take) const;
 
+  /// For messages of errors: the topics with their types, or what else there is.
+  std::string describeTopics() const;
+
   /// Size and time of writing of the bags, for fingerprints.
   const std::string& identity() const { return identity_; }
 
@@ -40,6 +43,12 @@ class BagMessages {
   std::string paths_;
   std::string identity_;
 };
+
+/// Makes sure that a bag was closed and is whole: its index begins where its header says and ends
+/// with the file. Reads a few bytes only of what comes before.
+///
+/// @throws InvalidFile  if it is no bag of ROS 1, was not closed, or is cut; it says which.
+void requireWholeBag(const std::string& path);
 
 /// The message as a type.
 /// @throws InvalidFile  if it is of another type.

@@ -23,6 +23,8 @@ pcrb::SensorScan readPoints(const sensor_msgs::PointCloud2& message, pcrb::Origi
 }
 
 constexpr std::size_t kMaxPixels = std::size_t{1} << 23;
+constexpr std::size_t kHarmlessPixels = std::size_t{1} << 21;  ///< however well they are packed
+constexpr std::size_t kMaxPacking = 100;                       ///< pixels of a byte of the file
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
 [[noreturn]] void refusePng(const std::string& name, const std::string& why) {
@@ -127,9 +129,12 @@ DepthPng decodeDepthPng(std::string_view bytes, const std::string& name) {
     refusePng(name, "found another kind of PNG, expected 16 bits of grey");
   }
   const std::size_t count = std::size_t{image.width} * image.height;
-  if (count > kMaxPixels)
-    refusePng(name, "found " + std::to_string(count) + " pixels, expected at most " +
-                        std::to_string(kMaxPixels));
+  const std::size_t limit = std::min(kMaxPixels, kHarmlessPixels + kMaxPacking * bytes.size());
+  if (count > limit) {
+    refusePng(name, "found " + std::to_string(count) + " pixels in " +
+                        std::to_string(bytes.size()) + " bytes, expected at most " +
+                        std::to_string(limit));
+  }
   DepthPng decoded{image.width, image.height, std::vector<std::uint16_t>(count)};
   if (png_image_finish_read(&image, nullptr, decoded.pixels.data(), 0, nullptr) == 0) {
     refusePng(name, image.message);

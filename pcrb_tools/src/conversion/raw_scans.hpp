@@ -49,8 +49,9 @@ struct DepthPng {
 /// Decodes a PNG with 16 bits of grey, to the numbers that are stored: gamma and the like change no
 /// depth.
 /// @param name  stands for the path in messages
-/// @throws InvalidFile  if it is damaged, of another kind, or claims more than 2^23 pixels: that is
-///                      refused before memory is taken for them.
+/// @throws InvalidFile  if it is damaged, of another kind, or claims more pixels than a sensor
+///                      has (2^23; 2^21 and 100 a byte of the file): that is refused before
+///                      memory is taken for them.
 DepthPng decodeDepthPng(std::string_view bytes, const std::string& name);
 
 }  // namespace pcrb_tools

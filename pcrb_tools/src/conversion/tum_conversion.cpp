@@ -49,8 +49,9 @@ void convertDepth(const TumOptions& options, const BagMessages& bags, TumStream&
     stream.setCamera(*messageAs<sensor_msgs::CameraInfo>(message));
   });
   if (!stream.hasCamera()) {
-    throw pcrb::InvalidFile("topic " + options.info_topic, 0, "no message",
-                            "the camera (or give fx fy cx cy: intrinsics)");
+    throw pcrb::InvalidFile("topic " + options.info_topic, 0,
+                            "no message among " + bags.describeTopics(),
+                            "the camera (--info-topic, or give fx fy cx cy: --intrinsics)");
   }
   bags.forEach({options.depth_topic}, [&stream](const rosbag::MessageInstance& message) {
     stream.addDepth(messageAs<sensor_msgs::Image>(message));
@@ -166,8 +167,9 @@ ConversionReport convertTumBags(const TumRequest& request) {
       input == TumInput::kClouds ? request.options.cloud_topic : request.options.depth_topic;
   const std::size_t total = bags.count({topic});
   if (total == 0) {
-    throw pcrb::InvalidFile(request.inputs.front(), 0, "no message on " + topic,
-                            "clouds or depth images");
+    throw pcrb::InvalidFile(request.inputs.front(), 0,
+                            "no message on " + topic + " among " + bags.describeTopics(),
+                            "clouds or depth images (--cloud-topic, --depth-topic)");
   }
   const std::string log_name = fs::path(logPath(request.inputs.front())).filename().string();
   Conversion conversion(
