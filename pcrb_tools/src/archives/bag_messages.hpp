@@ -4,6 +4,7 @@
 #include <rosbag/message_instance.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@
 
 namespace pcrb_tools {
 
-/// Whether a path has a bag's ending.
+/// Whether a path has a bag's ending: also one of bags that cannot be read, to be named as such.
 bool isBag(const std::string& path);
 
 /// Whether the inputs of a converter are bags: all of them or none.
@@ -31,6 +32,9 @@ class BagMessages {
   /// @throws InvalidFile  if a bag is damaged.
   void forEach(const std::vector<std::string>& topics,
                const std::function<void(const rosbag::MessageInstance&)>& take) const;
+
+  /// Types by topic.
+  std::map<std::string, std::string> topics() const;
 
   /// For messages of errors: the topics with their types, or what else there is.
   std::string describeTopics() const;

@@ -42,8 +42,29 @@ TEST_F(BagMessagesTest, AWholeBagIsWholeAndOneThatWasCutAnywhereIsNot) {
     pcrb_test::writeFile(cut, bytes.substr(0, size));
     PCRB_EXPECT_ERROR(pcrb::InvalidFile, requireWholeBag(cut), "cut or damaged");
   }
-  pcrb_test::writeFile(cut, "<html>");
-  PCRB_EXPECT_ERROR(pcrb::InvalidFile, requireWholeBag(cut), "expected a bag of ROS 1");
+}
+
+TEST_F(BagMessagesTest, WhatHasTheNameOfABagAndIsNoneIsNamed) {
+  const auto expect = [&](const std::string& bytes, const char* what) {
+    const std::string file = folder_.file("other.bag");
+    pcrb_test::writeFile(file, bytes);
+    PCRB_EXPECT_ERROR(pcrb::InvalidFile, requireWholeBag(file), what);
+    PCRB_EXPECT_ERROR(pcrb::InvalidFile, BagMessages({file}), what);
+  };
+  expect("<html><body>Sign in</body></html>", "found an HTML page");
+  expect("version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "found a Git LFS pointer");
+  expect(std::string("SQLite format 3\0", 16) + std::string(100, 'x'), "a bag of ROS 2 (sqlite3)");
+  expect("\x89MCAP0\r\n....", "a bag of ROS 2 (mcap)");
+  expect("#ROSBAG V1.2\n", "found a bag of version 1");
+  expect("", "found an empty file");
+  expect("anything", "expected a bag of ROS 1");
+}
+
+TEST_F(BagMessagesTest, TheEndingsOfBagsThatCannotBeReadAreThoseOfBags) {
+  for (const char* path : {"a.bag", "a.bag.active", "rosbag2/a_0.db3", "a.mcap"}) {
+    EXPECT_TRUE(isBag(path)) << path;
+  }
+  EXPECT_FALSE(isBag("a.bag.zip"));
 }
 
 TEST_F(BagMessagesTest, ABagThatWasNotClosedIsNamed) {
