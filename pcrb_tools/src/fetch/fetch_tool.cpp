@@ -7,6 +7,7 @@
 #include "common/process.hpp"
 #include "common/progress.hpp"
 #include "fetch/checksums.hpp"
+#include "fetch/dspace.hpp"
 #include "fetch/published_files.hpp"
 #include "fetch/sources.hpp"
 #include "pcrb_core/error.hpp"
@@ -70,7 +71,7 @@ class Fetch {
         out_ << "take " << by_hand;
       } else if (!source.places.empty()) {
         const Place& place = source.places.front();
-        out_ << "download " << place.url << " to " << pathOf(source);
+        out_ << "download " << place.describe() << " to " << pathOf(source);
         if (place.bytes) out_ << ", " << inGigabytes(*place.bytes);
         bytes += place.bytes.value_or(0);
         if (!place.bytes) ++unknown;
@@ -122,8 +123,11 @@ class Fetch {
     std::string failures;
     for (const Place& place : source.places) {
       try {
-        downloadFrom(place, source, path);
-        return place;
+        const bool is_in_dspace = !place.dspace_item.empty();
+        const Place found =
+            is_in_dspace ? findInDspace(place, path + ".dspace.json", options_.policy) : place;
+        downloadFrom(found, source, path);
+        return found;
       } catch (const pcrb::InvalidFile& error) {
         if (source.places.size() == 1) throw;
         failures += (failures.empty() ? "" : "; ") + std::string(error.what());
@@ -140,7 +144,10 @@ class Fetch {
       progress.set(done, total);
     };
     download({place.url, path, place.google_drive, place.bytes,
-              [&](const std::string& part) { requireContent(source, part, place.bytes); }},
+              [&](const std::string& part) {
+                requireContent(source, part, place.bytes);
+                if (!place.md5.empty()) requireMd5(part, place.md5);
+              }},
              policy);
     progress.finish();
   }

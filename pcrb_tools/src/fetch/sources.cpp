@@ -109,6 +109,8 @@ class SourceReader {
 
   Setters placeSetters(Place& place) const {
     return {{"url", [&](const YAML::Node& value) { place.url = url(value); }},
+            {"dspace_item", [&](const YAML::Node& value) { place.dspace_item = text(value); }},
+            {"dspace_name", [&](const YAML::Node& value) { place.dspace_name = plainName(value); }},
             {"sha256", [&](const YAML::Node& value) { place.sha256 = sha256(value); }},
             {"bytes", [&](const YAML::Node& value) { place.bytes = bytes(value); }},
             {"google_drive", [&](const YAML::Node& value) {
@@ -116,12 +118,19 @@ class SourceReader {
              }}};
   }
 
+  void requireWhole(const YAML::Node& node, const Place& place) const {
+    if (place.url.empty()) fail(node, "no url", "one");
+    if (place.dspace_item.empty() != place.dspace_name.empty()) {
+      fail(node, "one of dspace_item and dspace_name", "both or neither");
+    }
+  }
+
   std::vector<Place> readMirrors(const YAML::Node& node) const {
     if (!node.IsSequence()) fail(node, "no list", "a list of maps with a url");
     std::vector<Place> mirrors(node.size());
     for (std::size_t i = 0; i < node.size(); ++i) {
       setAll(node[i], placeSetters(mirrors[i]));
-      if (mirrors[i].url.empty()) fail(node[i], "no url", "one");
+      requireWhole(node[i], mirrors[i]);
     }
     return mirrors;
   }
@@ -147,7 +156,10 @@ class SourceReader {
                  }},
                 {"set", [&](const YAML::Node& value) { readSet(value, source); }}});
     setAll(node, setters);
-    if (!place.url.empty()) source.places.push_back(place);
+    if (!place.url.empty()) {
+      requireWhole(node, place);
+      source.places.push_back(place);
+    }
     source.places.insert(source.places.end(), mirrors.begin(), mirrors.end());
     requireComplete(node, source);
     return source;

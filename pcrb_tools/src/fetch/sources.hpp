@@ -23,10 +23,18 @@ enum class SourceSet {
 
 /// Where a file can be downloaded, and what it must be then, where known.
 struct Place {
-  std::string url;
+  std::string url;            ///< of the file; with dspace_item that of the server's REST interface
+  std::string dspace_item;    ///< UUID of an item in a DSpace 7 repository
+  std::string dspace_name;    ///< of the file in that item
   bool google_drive = false;  ///< the download needs a confirmation
   std::optional<std::uint64_t> bytes;
   std::string sha256;  ///< empty: recorded at the first download
+  std::string md5;     ///< as a repository says; never from the list
+
+  /// For messages.
+  std::string describe() const {
+    return dspace_item.empty() ? url : dspace_name + " of item " + dspace_item + " at " + url;
+  }
 };
 
 /// One file of the list of sources.
