@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "pcrb_core/run/offline_run.hpp"
 #include "pcrb_core/transform.hpp"
@@ -44,9 +45,13 @@ struct TrackingOptions {
   std::size_t delta = 1;                                        ///< scans, of relative errors
   bool align = false;                                           ///< APE after a rigid alignment
   pcrb::Transform T_body_sensor = pcrb::Transform::Identity();  ///< poses are those of the body
+  std::vector<std::string> tf;  ///< of a bag: world's and body's frames, in place of a topic
+  double time_offset = 0.0;     ///< s, added to the stamps of the poses
+  double largest_offset = 0.0;  ///< s: further offset to estimate, at most so large; 0 = none
 };
 
-/// Scores a trajectory scan by scan: the benchmark's error, APE and RPE. Writes scans.csv,
+/// Scores a trajectory, a text in any pcrb::PoseFormat or of a bag, scan by scan: the benchmark's
+/// error, APE and RPE. Writes scans.csv,
 /// summary.txt, truth.tum and estimate.tum, and prints the summary.
 ///
 /// @throws pcrb::Error  for files that are not as they should be, or if no scan has a pose.

@@ -9,7 +9,9 @@
 #include "common/process.hpp"
 #include "common/progress.hpp"
 #include "common/sequence_paths.hpp"
+#include "pcrb_core/datasets/cloud_file.hpp"
 #include "pcrb_core/datasets/stamp.hpp"
+#include "pcrb_core/datasets/stamp_mismatch.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/evaluation/trajectory_error.hpp"
@@ -18,8 +20,8 @@
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/transform.hpp"
 #include "pcrb_server/playback/scene.hpp"
-#include "scoring/recorded_poses.hpp"
 #include "scoring/scoring_tool.hpp"
+#include "scoring/tracked_poses.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -117,14 +119,22 @@ std::string formatEstimateTum(const std::vector<TrackedScan>& scans) {
   return text;
 }
 
+void requireMatches(const std::vector<TrackedScan>& scans, const pcrb::Trajectory& trajectory) {
+  std::vector<pcrb::Stamp> stamps;
+  for (const TrackedScan& scan : scans) {
+    if (scan.T_map_sensor) return;
+    stamps.push_back(scan.stamp);
+  }
+  throw pcrb::InvalidParameter("found a pose for none of " + std::to_string(scans.size()) +
+                               " scans (" + pcrb::describeMismatch(stamps, trajectory.stamps()) +
+                               "), expected some with timestamps like the scans' "
+                               "(--max-difference, --time-offset)");
+}
+
 /// A table: the benchmark's error, APE and RPE with evo's statistics.
 std::string summarizeTracking(const std::vector<TrackedScan>& scans, std::size_t delta,
                               bool align) {
   const Matched matched = match(scans);
-  if (matched.estimate.empty()) {
-    throw pcrb::InvalidParameter("found a pose for none of " + std::to_string(scans.size()) +
-                                 " scans, expected some with timestamps like the scans'");
-  }
   const auto absolute = pcrb::absolutePoseErrors(
       matched.truth,
       align ? pcrb::alignToReference(matched.truth, matched.estimate) : matched.estimate);
@@ -143,23 +153,11 @@ std::string summarizeTracking(const std::vector<TrackedScan>& scans, std::size_t
   return out.str();
 }
 
-/// `1311878220.377686160.pcd` or `urban05_1524185042111111111.pcd`.
-std::optional<pcrb::Stamp> stampOfName(const std::string& name) {
-  const std::string stem = fs::path(name).stem().string();
-  if (const auto stamp =
-          stem.find('.') != std::string::npos ? pcrb::parseStamp(stem) : std::nullopt) {
-    return stamp;
-  }
-  const std::string digits = stem.substr(stem.rfind('_') + 1);
-  const auto nanoseconds = pcrb::parseInt(digits);
-  return digits.size() == 19 ? nanoseconds : std::nullopt;
-}
-
 pcrb::ScanList listOf(const TrackingOptions& options) {
   if (!options.scans.empty()) return pcrb::readScanList(options.scans);
   pcrb::ScanList list;
   for (const std::string& name : openSequenceFolder(options.folder).clouds) {
-    const auto stamp = stampOfName(name);
+    const auto stamp = pcrb::stampOfFileName(name);
     if (!stamp) {
       throw pcrb::InvalidFile(options.folder + "/" + name, 0, "a name without a timestamp",
                               "--scans, the list that sequence_to_bag and replay write");
@@ -193,38 +191,87 @@ void score(const pcrb::DatasetCloud& cloud, const pcrb::ScanList& list,
   scan.T_map_sensor = T_map_sensor;
 }
 
-TrackedScan track(const TrackingOptions& options, const pcrb::ScanList& list,
-                  const pcrb::Trajectory& trajectory, pcrb::Stamp stamp, const std::string& name) {
-  const pcrb::DatasetCloud cloud = readScan(options, name);
-  TrackedScan scan;
-  scan.name = name;
-  scan.stamp = stamp;
-  scan.truth = cloud.viewpoint;
-  scan.truth.translation() -= list.local_origin;
-  const pcrb::StampedPose& nearest = trajectory.nearest(stamp);
-  if (std::abs(nearest.stamp - stamp) <= pcrb::toStamp(options.max_difference)) {
-    score(cloud, list, nearest.T_world_body * options.T_body_sensor, scan);
+/// The scans without poses, and their clouds' files.
+std::vector<TrackedScan> readTruth(const TrackingOptions& options, const pcrb::ScanList& list) {
+  std::vector<TrackedScan> scans;
+  for (const auto& [stamp, name] : list.scans) {
+    TrackedScan scan;
+    scan.name = name;
+    scan.stamp = stamp;
+    if (options.largest_offset > 0.0) {
+      scan.truth = readScan(options, name).viewpoint;
+      scan.truth.translation() -= list.local_origin;
+    }
+    scans.push_back(std::move(scan));
   }
-  return scan;
+  return scans;
 }
 
-}  // namespace
+void track(const TrackingOptions& options, const pcrb::ScanList& list,
+           const pcrb::Trajectory& trajectory, TrackedScan& scan) {
+  const pcrb::DatasetCloud cloud = readScan(options, scan.name);
+  scan.truth = cloud.viewpoint;
+  scan.truth.translation() -= list.local_origin;
+  const pcrb::StampedPose& nearest = trajectory.nearest(scan.stamp);
+  if (std::abs(nearest.stamp - scan.stamp) <= pcrb::toStamp(options.max_difference)) {
+    score(cloud, list, nearest.T_world_body * options.T_body_sensor, scan);
+  }
+}
+
+/// The trajectory in the scans' time.
+pcrb::Trajectory inScansTime(const TrackingOptions& options, const std::vector<TrackedScan>& scans,
+                             pcrb::Trajectory trajectory, std::vector<std::string>& notes) {
+  double offset = options.time_offset;
+  if (options.largest_offset > 0.0) {
+    std::vector<pcrb::StampedPose> truth;
+    for (const TrackedScan& scan : scans) truth.push_back({scan.stamp, scan.truth});
+    offset += estimateTimeOffset(truth, shifted(trajectory, offset), options.T_body_sensor,
+                                 options.largest_offset);
+    notes.push_back("time offset estimated: " + pcrb::formatFixed(offset, 6) +
+                    " s added to the poses' timestamps");
+  }
+  return offset == 0.0 ? trajectory : shifted(trajectory, offset);
+}
+
+/// Orientations that are right when w is read first, at right places, are another order.
+bool isQuaternionOrderSuspect(const Matched& matched) {
+  constexpr double kWrong = 0.2;  // rad
+  const auto errors = [&](const auto& reorder) {
+    std::vector<double> angles;
+    for (std::size_t i = 0; i != matched.truth.size(); ++i) {
+      const Eigen::Quaterniond q(matched.estimate[i].linear());
+      angles.push_back(pcrb::rotationAngle(matched.truth[i].linear().transpose() *
+                                           reorder(q).toRotationMatrix()));
+    }
+    return pcrb::describeErrors(angles).median;
+  };
+  const double as_read = errors([](const Eigen::Quaterniond& q) { return q; });
+  const double w_first = errors(
+      [](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()); });
+  return as_read > kWrong && w_first < as_read / 4.0;
+}
 
 void runTrackingScoring(const TrackingOptions& options, std::ostream& out) {
   const Interruption interruption;
   const pcrb::ScanList list = listOf(options);
-  const pcrb::Trajectory trajectory =
-      toTrajectory(readPoses(options.poses.path, options.poses.topic, options.poses.map_frame),
-                   options.poses.path);
-  std::vector<TrackedScan> scans;
+  std::vector<std::string> notes;
+  pcrb::Trajectory read = readTrackedPoses(options, list, notes);
+  std::vector<TrackedScan> scans = readTruth(options, list);
+  const pcrb::Trajectory trajectory = inScansTime(options, scans, std::move(read), notes);
   Progress progress(fs::path(options.folder).filename().string(), "scans", list.scans.size());
-  for (const auto& [stamp, name] : list.scans) {
+  for (TrackedScan& scan : scans) {
     Interruption::check();
-    scans.push_back(track(options, list, trajectory, stamp, name));
+    track(options, list, trajectory, scan);
     progress.add();
   }
   progress.finish();
-  const std::string summary = summarizeTracking(scans, options.delta, options.align);
+  requireMatches(scans, trajectory);
+  if (isQuaternionOrderSuspect(match(scans))) {
+    notes.emplace_back(
+        "the orientations are right if w is read first: expected qx qy qz qw in the poses' rows");
+  }
+  std::string summary = summarizeTracking(scans, options.delta, options.align);
+  for (const std::string& note : notes) summary += "note: " + note + "\n";
   fs::create_directories(options.output);
   pcrb::writeFileAtomically(options.output + "/scans.csv", formatScansCsv(scans));
   pcrb::writeFileAtomically(options.output + "/truth.tum", formatTruthTum(scans));
