@@ -7,18 +7,25 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/message_conversion.hpp"
+#include "pcrb_server/point_times.hpp"
 
 namespace pcrb_tools {
 namespace {
 
-pcrb::SensorScan readPoints(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin) {
+template <typename Take>
+void forEachPoint(const sensor_msgs::PointCloud2& message, const Take& take) {
   const std::size_t count = pcrb::countPoints(message);
   const pcrb::PointField x(message, "x");
   const pcrb::PointField y(message, "y");
   const pcrb::PointField z(message, "z");
+  for (std::size_t i = 0; i != count; ++i) take(i, Eigen::Vector3d(x[i], y[i], z[i]));
+}
+
+pcrb::SensorScan readPoints(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin) {
   pcrb::SensorScan scan;
-  scan.points.reserve(count);
-  for (std::size_t i = 0; i != count; ++i) scan.add({x[i], y[i], z[i]}, origin);
+  scan.points.reserve(pcrb::countPoints(message));
+  forEachPoint(message,
+               [&](std::size_t, const Eigen::Vector3d& point) { scan.add(point, origin); });
   return scan;
 }
 
@@ -71,6 +78,21 @@ pcrb::SensorScan scanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoi
                         const std::string& name) {
   try {
     return readPoints(message, origin);
+  } catch (const pcrb::InvalidProblem& error) {
+    throw pcrb::InvalidFile(name, error.what());
+  }
+}
+
+pcrb::SensorScan timedScanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin,
+                             const std::string& name) {
+  try {
+    const std::vector<double> times = pcrb::pointTimes(message);
+    pcrb::SensorScan scan;
+    forEachPoint(message, [&](std::size_t i, const Eigen::Vector3d& point) {
+      scan.add(point, origin);
+      if (!times.empty() && scan.points.size() > scan.times.size()) scan.times.push_back(times[i]);
+    });
+    return scan;
   } catch (const pcrb::InvalidProblem& error) {
     throw pcrb::InvalidFile(name, error.what());
   }

@@ -25,6 +25,10 @@ pcrb::Stamp stampOf(const ros::Time& time);
 pcrb::SensorScan scanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin,
                         const std::string& name);
 
+/// The same with the times of the points, where a field of pcrb::pointTimeScale() has them.
+pcrb::SensorScan timedScanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin,
+                             const std::string& name);
+
 /// The points of a depth image, 32FC1 in metres or 16UC1 (mono16) in units.
 /// @param units_per_metre  of 16UC1; 1000 by convention of ROS (REP 118)
 /// @throws InvalidFile  for other encodings and sizes that make no sense.

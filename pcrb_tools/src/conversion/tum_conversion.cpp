@@ -143,7 +143,7 @@ ConversionReport convertImages(const TumRequest& request) {
   const std::size_t list = requireOne(files, kListFile);
   const pcrb::Trajectory trajectory = readTrajectory(files, request);
   Conversion conversion(request, tumSequenceOf(request, files.all()[list]), 0);
-  noteDuplicatePoses(trajectory, conversion);
+  announcePoses(trajectory, conversion);
   TumScanSelector selector(trajectory, request.options, maxRate(request.options, TumInput::kDepth),
                            conversion);
   const pcrb::Intrinsics intrinsics = request.options.intrinsics.value_or(pcrb::Intrinsics());
@@ -175,7 +175,7 @@ ConversionReport convertTumBags(const TumRequest& request) {
   Conversion conversion(
       request, request.sequence.empty() ? pcrb::tumSequenceName(log_name) : request.sequence,
       total);
-  noteDuplicatePoses(trajectory, conversion);
+  announcePoses(trajectory, conversion);
   TumStream stream(trajectory, request.options, input, bags.identity(), conversion);
   if (input == TumInput::kClouds) {
     convertClouds(request.options, bags, stream);
