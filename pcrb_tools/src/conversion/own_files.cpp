@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "archives/bag_messages.hpp"
 #include "conversion/log_files.hpp"
 #include "conversion/own_log.hpp"
 #include "pcrb_core/error.hpp"
@@ -41,6 +42,13 @@ class OwnFiles {
         files_(request.inputs, isPoseText),
         clouds_(files_.find(
             [](const LogFile& file) { return pcrb::isCloudFileName(file.fileName()); })) {
+    for (const LogFile& file : files_.all()) {
+      if (!clouds_.empty() || !isBag(file.fileName())) continue;
+      throw pcrb::InvalidFile(
+          file.path(), 0, "a bag in a folder",
+          "it as the input itself, of ROS 1 (rosbags-convert makes one of a bag "
+          "of ROS 2)");
+    }
     if (clouds_.empty()) {
       throw pcrb::InvalidFile(request.inputs.front(), 0,
                               "no cloud among " + std::to_string(files_.all().size()) + " files",

@@ -159,6 +159,13 @@ TEST_F(OwnFilesConversion, ReadsCloudsFromAnArchive) {
   EXPECT_EQ(convertOwn(archived).sequence, "walk");
 }
 
+TEST_F(OwnFilesConversion, ABagOfRos2InAFolderIsNamed) {
+  write("metadata.yaml", "rosbag2_bagfile_information:\n");
+  write("rosbag2_0.db3", "SQLite format 3");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
+                    "rosbag2_0.db3: found a bag in a folder");
+}
+
 TEST_F(OwnFilesConversion, AFolderWithoutCloudsIsNamed) {
   write("a.txt", "nothing\n");
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()), "found no cloud among 1 files");
