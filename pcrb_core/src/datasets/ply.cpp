@@ -111,20 +111,33 @@ class PlyHeaderReader {
   bool has_vertex_ = false;
 };
 
-/// Positions of the columns that are read from a text.
-std::array<std::size_t, 3> axesOf(const PlyHeader& header) {
+/// The columns of a text that are read.
+struct PlyColumns {
   std::array<std::size_t, 3> axes{};
+  std::optional<std::size_t> time;
+};
+
+PlyColumns columnsOf(const PlyHeader& header, const RecordLayout& layout) {
+  PlyColumns columns;
   for (std::size_t i = 0; i != header.fields.size(); ++i) {
-    const std::string& name = header.fields[i].name;
-    const std::size_t axis = name.size() == 1 ? std::string_view("xyz").find(name[0]) : 3;
-    if (axis < axes.size()) axes[axis] = i;
+    const std::size_t offset = header.fields[i].field.offset;
+    const std::array<std::size_t, 3> offsets{layout.x.offset, layout.y.offset, layout.z.offset};
+    const auto axis = std::find(offsets.begin(), offsets.end(), offset);
+    if (axis != offsets.end()) columns.axes[static_cast<std::size_t>(axis - offsets.begin())] = i;
+    if (layout.time && layout.time->offset == offset) columns.time = i;
   }
-  return axes;
+  return columns;
+}
+
+double requireNumber(const LineReader& reader, std::string_view word) {
+  const auto number = parseDouble(word);
+  if (!number) reader.fail(inQuotes(word), "a number");
+  return *number;
 }
 
 SensorScan readPlyText(LineReader& reader, const PlyHeader& header, OriginPoints origin) {
-  layoutOf(header.fields, header.length, false, reader.name());  // has x, y and z
-  const std::array<std::size_t, 3> axes = axesOf(header);
+  const RecordLayout layout = layoutOf(header.fields, header.length, false, reader.name());
+  const PlyColumns columns = columnsOf(header, layout);
   SensorScan scan;
   std::vector<std::string_view> words;
   std::string_view line;
@@ -139,12 +152,13 @@ SensorScan readPlyText(LineReader& reader, const PlyHeader& header, OriginPoints
                   std::to_string(header.fields.size()) + " numbers of a vertex");
     }
     Eigen::Vector3d point;
-    for (std::size_t axis = 0; axis != axes.size(); ++axis) {
-      const auto number = parseDouble(words[axes[axis]]);
-      if (!number) reader.fail(inQuotes(words[axes[axis]]), "a number");
-      point[static_cast<Eigen::Index>(axis)] = *number;
+    for (std::size_t axis = 0; axis != columns.axes.size(); ++axis) {
+      point[static_cast<Eigen::Index>(axis)] = requireNumber(reader, words[columns.axes[axis]]);
     }
     scan.add(point, origin);
+    if (columns.time && scan.points.size() > scan.times.size()) {
+      scan.times.push_back(requireNumber(reader, words[*columns.time]) * layout.time_scale);
+    }
   }
   return scan;
 }

@@ -83,6 +83,21 @@ TEST(CloudFile, ReadsPlyOfTextAndOfEitherByteOrderInDouble) {
       "is the file cut?");
 }
 
+TEST(CloudFile, ReadsTheTimesOfVertices) {
+  const std::string head =
+      "element vertex 2\nproperty uint t\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
+  const std::string text = "ply\nformat ascii 1.0\n" + head + "0 1.5 -2 3\n50000000 4 5 6\n";
+  const std::string data = bytesOf<std::uint32_t>({0}) + bytesOf<float>({1.5F, -2, 3}) +
+                           bytesOf<std::uint32_t>({50'000'000}) + bytesOf<float>({4, 5, 6});
+  for (const std::string& bytes : {text, "ply\nformat binary_little_endian 1.0\n" + head + data}) {
+    const SensorScan scan = parse(bytes, "a.ply");
+    expectTwoPoints(scan);
+    ASSERT_EQ(scan.times.size(), 2u);
+    EXPECT_DOUBLE_EQ(scan.times[1], 0.05);
+  }
+}
+
 TEST(CloudFile, ReadsRecordsOfFloatsAndSuspectsAnotherLength) {
   const std::string kitti = bytesOf<float>({1.5F, -2, 3, 0.1F, 4, 5, 6, 0.2F});
   expectTwoPoints(parse(kitti, "000000.bin"));

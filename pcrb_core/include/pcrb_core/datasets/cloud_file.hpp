@@ -30,7 +30,7 @@ std::optional<Stamp> stampOfFileName(std::string_view file_name);
 /// PCD: as readPcd(). PLY: ascii, or binary in either byte order, with x y z as float or double in
 /// its vertices. `.bin`: records of little-endian float32 without header, as KITTI and nuScenes
 /// have them. `.npy`: an array of N × 3 or more (or rows × columns × 3 or more) float32 or float64,
-/// or of records with fields x y z. The time of points is read where binary vertices or
+/// or of records with fields x y z. The time of points is read where vertices or
 /// records have a field of one of the names in pointTimeScale().
 /// @param name  stands for the path in messages
 /// @throws InvalidFile  for defects, with what was found and what was expected; for a `.bin` whose
