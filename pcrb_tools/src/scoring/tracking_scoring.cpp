@@ -20,6 +20,7 @@
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/transform.hpp"
 #include "pcrb_server/playback/scene.hpp"
+#include "scoring/quaternion_order.hpp"
 #include "scoring/scoring_tool.hpp"
 #include "scoring/tracked_poses.hpp"
 
@@ -233,23 +234,16 @@ pcrb::Trajectory inScansTime(const TrackingOptions& options, const std::vector<T
   return offset == 0.0 ? trajectory : shifted(trajectory, offset);
 }
 
-/// Orientations that are right when w is read first, at right places, are another order.
-bool isQuaternionOrderSuspect(const Matched& matched) {
-  constexpr double kWrong = 0.2;  // rad
-  const auto errors = [&](const auto& reorder) {
-    std::vector<double> angles;
-    for (std::size_t i = 0; i != matched.truth.size(); ++i) {
-      const Eigen::Quaterniond q(matched.estimate[i].linear());
-      angles.push_back(pcrb::rotationAngle(matched.truth[i].linear().transpose() *
-                                           reorder(q).toRotationMatrix()));
-    }
-    return pcrb::describeErrors(angles).median;
-  };
-  const double as_read = errors([](const Eigen::Quaterniond& q) { return q; });
-  const double w_first = errors(
-      [](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()); });
-  return as_read > kWrong && w_first < as_read / 4.0;
+std::vector<ReadRotation> rotationsOf(const Matched& matched) {
+  std::vector<ReadRotation> rotations;
+  for (std::size_t i = 0; i != matched.truth.size(); ++i) {
+    rotations.push_back(
+        {matched.truth[i].linear(), Eigen::Quaterniond(matched.estimate[i].linear())});
+  }
+  return rotations;
 }
+
+}  // namespace
 
 void runTrackingScoring(const TrackingOptions& options, std::ostream& out) {
   const Interruption interruption;
@@ -266,10 +260,8 @@ void runTrackingScoring(const TrackingOptions& options, std::ostream& out) {
   }
   progress.finish();
   requireMatches(scans, trajectory);
-  if (isQuaternionOrderSuspect(match(scans))) {
-    notes.emplace_back(
-        "the orientations are right if w is read first: expected qx qy qz qw in the poses' rows");
-  }
+  const std::string hint = orderHint(rotationsOf(match(scans)));
+  if (!hint.empty()) notes.push_back(hint);
   std::string summary = summarizeTracking(scans, options.delta, options.align);
   for (const std::string& note : notes) summary += "note: " + note + "\n";
   fs::create_directories(options.output);
