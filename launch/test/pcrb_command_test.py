@@ -13,7 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import Child, TestCase, executable, rows, run_info
 
-COMMANDS = ('prepare fetch overlap sample map check run localize probe paper score report compare merge ground-truth replay bag demo '
+COMMANDS = ('prepare fetch convert overlap sample map import-protocol check run localize probe paper score report compare merge ground-truth replay bag demo '
             'doctor recipes completion options').split() + [f'convert {name}' for name in ('eth', 'planetary', 'tum', 'kaist')]
 
 

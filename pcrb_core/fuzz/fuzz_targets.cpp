@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "pcrb_core/datasets/cloud_file.hpp"
 #include "pcrb_core/datasets/eth.hpp"
 #include "pcrb_core/datasets/kaist.hpp"
 #include "pcrb_core/datasets/planetary.hpp"
+#include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
@@ -133,12 +135,25 @@ void requireFinite(const pcrb::Trajectory& trajectory) {
   }
 }
 
+/// The first byte chooses the format.
+[[maybe_unused]] void cloud_file_fuzzer(std::string_view input) {
+  if (input.empty()) return;
+  constexpr const char* kNames[] = {"fuzz.ply", "fuzz.npy", "fuzz.bin"};
+  tryToRead([&] {
+    const pcrb::SensorScan scan =
+        pcrb::parseCloudFile(input.substr(1), kNames[static_cast<unsigned char>(input[0]) % 3], {});
+    require(scan.points.size() == scan.counts.written());
+    require(scan.times.empty() || scan.times.size() == scan.points.size());
+    for (const auto& point : scan.points) require(point.allFinite());
+  });
+}
+
 /// The first byte chooses the reader.
 [[maybe_unused]] void log_poses_fuzzer(std::string_view input) {
   if (input.empty()) return;
   const std::string_view text = input.substr(1);
   tryToRead([&] {
-    switch (static_cast<unsigned char>(input.front()) % 7) {
+    switch (static_cast<unsigned char>(input.front()) % 9) {
       case 0:
         pcrb::parseLeicaPoses(text, "fuzz.txt");
         break;
@@ -157,8 +172,16 @@ void requireFinite(const pcrb::Trajectory& trajectory) {
       case 5:
         pcrb::parseKaistStamps(text, "fuzz.txt");
         break;
-      default:
+      case 6:
         pcrb::parsePlanetaryScan(text, "fuzz.txt");
+        break;
+      case 7:
+        pcrb::parseEthProtocol(text, "fuzz.txt");
+        break;
+      default:
+        for (const auto& pose : pcrb::parsePoseFile(text, "fuzz.txt").poses) {
+          require(pose.T_world_body.matrix().allFinite());
+        }
         break;
     }
   });

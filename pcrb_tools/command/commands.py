@@ -52,6 +52,7 @@ COMMANDS = [
             'pcrb prepare --logs ~/logs --root ~/pcrb --sequences eth/apartment'),
     Command('fetch', 'data', 'download the published data sets, and verify them', Tool('fetch_datasets', changes={
         'from': {'kind': 'folder'}}), 'pcrb fetch --logs ~/logs --root ~/pcrb --sequences eth/plain'),
+    Command('convert', 'data', 'a log of your own (bags, or clouds and poses) to a data set with problems', Tool('convert_log'), 'pcrb convert drive.bag --root ~/pcrb --data-set mine'),
     *(Command(f'convert {data_set}', 'data', f'a log in the original format of {name} to clouds', Tool(f'{data_set}_to_pcd', changes=LOG_FRAME),
               f'pcrb convert {data_set} ~/logs/{data_set}/{log} --root ~/pcrb')
       for data_set, name, log in (('eth', 'ETH', 'apartment'), ('planetary', 'the planetary data set', 'p2at_met'),
@@ -62,6 +63,8 @@ COMMANDS = [
             'pcrb sample --root ~/pcrb --sequences eth/apartment --kind local --seed 1'),
     Command('map', 'data', 'merge the clouds of a sequence into a map', Tool('build_map', folders=True),
             'pcrb map --root ~/pcrb --sequences planetary/box_met --output ~/pcrb/planetary/p2at_met/box_map.pcd'),
+    Command('import-protocol', 'data', 'problems of the original ETH protocol, with its initial poses', Tool('import_protocol'),
+            'pcrb import-protocol apartment_protocol.csv ~/pcrb/eth/apartment --output ~/protocol/eth/apartment_global.txt'),
     Command('check', 'data', 'check data sets: clouds, problems, overlaps', Tool('check_dataset', changes=ROOTED),
             'pcrb check --root ~/pcrb --sequences eth kaist'),
     Command('run', 'run', 'benchmark a registration method, or a client of your own', Benchmark('benchmark.launch', {

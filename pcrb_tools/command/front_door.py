@@ -1,5 +1,6 @@
 """pcrb's main: finds the command, checks its command line, runs it."""
 import os
+import re
 import shutil
 import sys
 import textwrap
@@ -61,13 +62,16 @@ def dispatch(words):
 def find(words):
     """The command that the first words name, and the words behind; no command for the first half of a name of two words."""
     by_name = {command.name: command for command in COMMANDS}
-    for count in (2, 1):
-        name = ' '.join(words[:count])
-        if name in by_name:
-            return by_name[name], words[count:]
     halves = {name.split()[0] for name in by_name if ' ' in name}
-    if words[0] in halves and (len(words) == 1 or words[1] in ('-h', '--help')):
+    if words[0] in halves and len(words) == 1:
         return None, []
+    name = ' '.join(words[:2])
+    if name in by_name and len(words) > 1:
+        return by_name[name], words[2:]
+    # A word behind the first half is a misspelt second half, unless a file is called so.
+    is_half = words[0] in halves and re.fullmatch('[a-z]+', words[1]) and not os.path.exists(words[1])
+    if words[0] in by_name and not is_half:
+        return by_name[words[0]], words[1:]
     known = {name.partition(' ')[2] for name in by_name if name.startswith(words[0] + ' ')} or set(by_name) | halves
     wrong = words[1] if words[0] in halves else words[0]
     raise UsageError([f'unknown command `{" ".join(words[:2] if words[0] in halves else words[:1])}`'
@@ -76,7 +80,7 @@ def find(words):
 
 def list_formats(name):
     for command in COMMANDS:
-        if command.name.startswith(name + ' '):
+        if command.name.split()[0] == name:
             print(f'pcrb {command.name.ljust(20)} {command.summary}')
     return 0
 

@@ -43,7 +43,11 @@ Keep it from getting worse, in continuous integration:
   pcrb run --root ~/pcrb --run run --method mine --plugin libmine.so --subset 100
   pcrb compare reference run --max-increase 5
 
-Make problems of data of your own (ROOT/DATA_SET/SEQUENCE/*.pcd):
+Make problems of a log of your own, a bag or a folder of clouds and a text of poses:
+  pcrb convert drive.bag --root ~/pcrb --data-set mine
+  pcrb convert ~/scans --poses poses.txt --root ~/pcrb --data-set mine
+
+Make problems of data of your own that lie in one frame (ROOT/DATA_SET/SEQUENCE/*.pcd):
   pcrb overlap --root ~/pcrb --sequences mine/yard
   pcrb sample --root ~/pcrb --sequences mine/yard
   pcrb check --root ~/pcrb --sequences mine/yard

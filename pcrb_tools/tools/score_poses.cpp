@@ -48,6 +48,18 @@ void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) 
                  "x y z qx qy qz qw of the sensor where poses are those of a body")
       ->expected(7)
       ->needs(sequence);
+  app.add_option("--tf", tracking.tf, "WORLD BODY: take the poses from tf between these frames")
+      ->expected(2)
+      ->needs(sequence);
+  app.add_option("--time-offset", tracking.time_offset,
+                 "seconds that are added to the timestamps of the poses")
+      ->needs(sequence)
+      ->capture_default_str();
+  app.add_option("--estimate-offset", tracking.largest_offset,
+                 "estimate a time offset, at most so many seconds; 0 = do not")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(sequence)
+      ->capture_default_str();
 }
 
 void addOptions(CLI::App& app, Options& options) {
@@ -59,7 +71,8 @@ void addOptions(CLI::App& app, Options& options) {
   sequence->excludes(file);
   app.add_option("--poses", problems.poses.path,
                  "a bag, or a text of rows `id` and the first three rows of a 4 x 4 matrix, or "
-                 "`timestamp tx ty tz qx qy qz qw`")
+                 "`timestamp tx ty tz qx qy qz qw`; of a sequence also kitti, euroc, kaist, log "
+                 "(3DMatch), or csv with names of columns")
       ->required();
   app.add_option("--topic", problems.poses.topic, "topic of the poses in the bag");
   app.add_option("--map-frame", problems.poses.map_frame, "tf frame of the poses in the bag")

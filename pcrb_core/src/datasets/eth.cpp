@@ -82,7 +82,8 @@ Eigen::Vector3d parseRow(const LineReader& reader, std::string_view line, const 
   for (std::size_t column = 0; column != columns.size(); ++column) {
     if (column > 0) {
       if (at == end) {
-        reader.fail(std::to_string(column) + " columns", std::to_string(columns.size()));
+        reader.fail(std::to_string(column) + " columns in " + inQuotes(line),
+                    std::to_string(columns.size()));
       }
       ++at;  // the comma
     }
@@ -94,7 +95,8 @@ Eigen::Vector3d parseRow(const LineReader& reader, std::string_view line, const 
   }
   if (at != end && !trimmed({at + 1, static_cast<std::size_t>(end - at - 1)}).empty()) {
     const auto more = std::count(at, end, ',');
-    reader.fail(std::to_string(columns.size() + static_cast<std::size_t>(more)) + " columns",
+    reader.fail(std::to_string(columns.size() + static_cast<std::size_t>(more)) + " columns in " +
+                    inQuotes(line),
                 std::to_string(columns.size()));
   }
   return point;

@@ -8,6 +8,7 @@
 
 #include "datasets/log_rows.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/number.hpp"
 
 namespace pcrb {
@@ -55,6 +56,7 @@ Eigen::Matrix<double, 3, 4> rowsOf(const double* numbers) {
 }  // namespace
 
 SensorScan parseVelodyneScan(std::string_view bytes, OriginPoints origin, const std::string& name) {
+  requireData(bytes, name);
   if (bytes.size() % kRecordSize != 0) {
     throw InvalidFile(name, 0, std::to_string(bytes.size()) + " bytes",
                       "records of 16 bytes (x y z intensity, float32)");

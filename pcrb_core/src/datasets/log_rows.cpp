@@ -30,7 +30,9 @@ std::vector<double> requireNumbers(const LineReader& reader, std::string_view li
   std::vector<double> numbers;
   numbers.reserve(count);
   if (!parseNumbers(line, separator, numbers)) reader.fail(inQuotes(line), expected);
-  if (numbers.size() != count) reader.fail(std::to_string(numbers.size()) + " numbers", expected);
+  if (numbers.size() != count) {
+    reader.fail(std::to_string(numbers.size()) + " numbers in " + inQuotes(line), expected);
+  }
   for (const double number : numbers) {
     if (!std::isfinite(number)) reader.fail("a number that is not finite", expected);
   }

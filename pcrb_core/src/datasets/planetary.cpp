@@ -52,7 +52,8 @@ SensorScan parsePlanetaryScan(std::string_view text, const std::string& name,
     throw InvalidFile(name, 0,
                       std::to_string(counts.malformed) + " of " + std::to_string(counts.read) +
                           " lines that are no point",
-                      "'x y z' in all but " + formatShortest(100.0 * max_malformed) + " %");
+                      "'x y z' in all but " + formatShortest(100.0 * max_malformed) +
+                          " % (--max-malformed allows more)");
   }
   return scan;
 }

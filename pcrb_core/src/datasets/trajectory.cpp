@@ -51,6 +51,13 @@ Trajectory::Trajectory(std::vector<StampedPose> poses) : poses_(std::move(poses)
   poses_.erase(poses_.begin(), first_kept);
 }
 
+std::vector<Stamp> Trajectory::stamps() const {
+  std::vector<Stamp> stamps;
+  stamps.reserve(poses_.size());
+  for (const StampedPose& pose : poses_) stamps.push_back(pose.stamp);
+  return stamps;
+}
+
 PoseLookup Trajectory::interpolate(Stamp stamp, Stamp max_gap) const {
   if (stamp < firstStamp()) return {PoseStatus::kBeforeFirst, {}};
   if (stamp > lastStamp()) return {PoseStatus::kAfterLast, {}};

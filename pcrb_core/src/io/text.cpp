@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/foreign_data.hpp"
 
 namespace pcrb {
 namespace {
@@ -39,6 +40,8 @@ bool isHtml(std::string_view text) {
   return start == "<!doctype html" || beginsWith(start, "<html");
 }
 
+bool isLfsPointer(std::string_view text) { return beginsWith(text, "version https://git-lfs"); }
+
 bool hasLoneCarriageReturns(std::string_view text) {
   const std::size_t first = text.find_first_of("\r\n");
   if (first == std::string_view::npos || first + 1 == text.size()) return false;
@@ -51,7 +54,7 @@ std::pair<const char*, const char*> describeForeign(std::string_view text) {
   if (isHtml(text)) {
     return {"an HTML page", "data: the download gave a page, of an error or to confirm, instead"};
   }
-  if (beginsWith(text, "version https://git-lfs")) {
+  if (isLfsPointer(text)) {
     return {"a Git LFS pointer", "the file that it stands for (git lfs pull)"};
   }
   if (beginsWith(text, "\x1F\x8B") || beginsWith(text, "PK\x03\x04")) {
@@ -69,6 +72,12 @@ LineReader::LineReader(std::string_view text, std::string name)
     : rest_(withoutByteOrderMark(text)), name_(std::move(name)) {
   const auto [found, expected] = describeForeign(rest_);
   if (found != nullptr) throw InvalidFile(name_, 1, found, expected);
+}
+
+void requireData(std::string_view start, const std::string& name) {
+  if (!isHtml(start) && !isLfsPointer(start)) return;
+  const auto [found, expected] = describeForeign(start);
+  throw InvalidFile(name, 0, found, expected);
 }
 
 bool LineReader::next(std::string_view& line) {

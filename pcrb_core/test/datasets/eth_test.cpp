@@ -52,14 +52,14 @@ TEST(EthScan, RejectsAHeaderWithoutXYZ) {
 
 TEST(EthScan, RejectsARowThatIsCutShort) {
   PCRB_EXPECT_ERROR(InvalidFile, parseEthScan(scanWith("1, 2, 3, 4, 5, 6"), "a.csv"),
-                    "a.csv:4: found 6 columns, expected 7");
+                    "a.csv:4: found 6 columns in '");
   PCRB_EXPECT_ERROR(InvalidFile, parseEthScan(scanWith("1, 2, 3"), "a.csv"),
-                    "a.csv:4: found 3 columns, expected 7");
+                    "a.csv:4: found 3 columns in '");
 }
 
 TEST(EthScan, RejectsARowWithMoreColumnsThanTheHeader) {
   PCRB_EXPECT_ERROR(InvalidFile, parseEthScan(scanWith("1, 2, 3, 4, 5, 6, 7, 8\n"), "a.csv"),
-                    "a.csv:4: found 8 columns, expected 7");
+                    "a.csv:4: found 8 columns in '");
 }
 
 TEST(EthScan, RejectsACoordinateThatIsNoNumber) {

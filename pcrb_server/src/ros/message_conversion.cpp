@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "pcrb_core/datasets/sensor_scan.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_server/point_times.hpp"
 
 namespace pcrb {
 
@@ -109,6 +111,30 @@ double PointField::operator[](std::size_t point) const {
   const std::uint8_t* bytes = first_ + point * step_;
   if (padding_ > 0) bytes += point / width_ * padding_;
   return is_double_ ? loadAs<double>(bytes) : loadAs<float>(bytes);
+}
+
+std::vector<double> pointTimes(const sensor_msgs::PointCloud2& message) {
+  const auto isTime = [](const auto& field) { return pointTimeScale(field.name, true) > 0.0; };
+  const auto field = std::find_if(message.fields.begin(), message.fields.end(), isTime);
+  if (field == message.fields.end()) return {};
+  std::vector<double> times(countPoints(message));
+  if (field->datatype != sensor_msgs::PointField::UINT32) {
+    const PointField time(message, field->name);
+    for (std::size_t i = 0; i != times.size(); ++i) times[i] = time[i];
+    return times;
+  }
+  if (field->offset + sizeof(std::uint32_t) > message.point_step) {
+    throw InvalidProblem("PointCloud2: found field " + field->name + " at " +
+                         std::to_string(field->offset) + ", expected it within " +
+                         std::to_string(message.point_step) + " bytes");
+  }
+  const double scale = pointTimeScale(field->name, false);
+  const std::size_t row = rowBytes(message);
+  for (std::size_t i = 0; i != times.size(); ++i) {
+    const std::size_t at = i / message.width * row + i % message.width * message.point_step;
+    times[i] = scale * loadAs<std::uint32_t>(message.data.data() + at + field->offset);
+  }
+  return times;
 }
 
 sensor_msgs::PointCloud2 layoutOf(const PointCloud& cloud) {

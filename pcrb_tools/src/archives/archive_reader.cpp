@@ -2,6 +2,7 @@
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <locale.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,25 @@ bool hasControlCharacter(const std::string& name) {
   return std::any_of(name.begin(), name.end(),
                      [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
+
+/// While it lives, this thread's names of files are UTF-8: libarchive refuses an entry of a zip
+/// whose name the user's locale cannot show.
+class Utf8Names {
+ public:
+  Utf8Names() : former_(uselocale(utf8())) {}
+  ~Utf8Names() { uselocale(former_); }
+  Utf8Names(const Utf8Names&) = delete;
+  Utf8Names& operator=(const Utf8Names&) = delete;
+
+ private:
+  /// Null, which changes nothing, where the system does not have it.
+  static locale_t utf8() {
+    static const locale_t locale = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    return locale;
+  }
+
+  locale_t former_;
+};
 
 void require(int status, archive* reader, const std::string& path) {
   if (status == ARCHIVE_OK) return;
@@ -90,6 +110,7 @@ ArchiveReader::ArchiveReader(const std::string& path)
 ArchiveReader::~ArchiveReader() = default;
 
 bool ArchiveReader::next() {
+  const Utf8Names utf8_names;
   archive_entry* entry = nullptr;
   for (;;) {
     const int status = archive_read_next_header(archive_.get(), &entry);

@@ -4,6 +4,7 @@
 #include <rosbag/message_instance.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@
 
 namespace pcrb_tools {
 
-/// Whether a path has a bag's ending.
+/// Whether a path has a bag's ending: also one of bags that cannot be read, to be named as such.
 bool isBag(const std::string& path);
 
 /// Whether the inputs of a converter are bags: all of them or none.
@@ -32,6 +33,12 @@ class BagMessages {
   void forEach(const std::vector<std::string>& topics,
                const std::function<void(const rosbag::MessageInstance&)>& take) const;
 
+  /// Types by topic.
+  std::map<std::string, std::string> topics() const;
+
+  /// For messages of errors: the topics with their types, or what else there is.
+  std::string describeTopics() const;
+
   /// Size and time of writing of the bags, for fingerprints.
   const std::string& identity() const { return identity_; }
 
@@ -40,6 +47,12 @@ class BagMessages {
   std::string paths_;
   std::string identity_;
 };
+
+/// Makes sure that a bag was closed and is whole: its index begins where its header says and ends
+/// with the file. Reads a few bytes only of what comes before.
+///
+/// @throws InvalidFile  if it is no bag of ROS 1, was not closed, or is cut; it says which.
+void requireWholeBag(const std::string& path);
 
 /// The message as a type.
 /// @throws InvalidFile  if it is of another type.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/process.hpp"
+#include "pcrb_core/datasets/stamp_mismatch.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
@@ -30,7 +31,8 @@ pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t 
 
 }  // namespace
 
-void noteDuplicatePoses(const pcrb::Trajectory& trajectory, Conversion& conversion) {
+void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion) {
+  conversion.setPoseStamps(trajectory.stamps());
   if (trajectory.duplicates() > 0) {
     conversion.note(std::to_string(trajectory.duplicates()) +
                     " poses have the stamp of a later one and were not used");
@@ -122,11 +124,13 @@ WorkerPool::Job Conversion::jobFor(const std::string& cloud_name, Make make) {
 void Conversion::makeCloud(const std::string& cloud_name, const std::string& fingerprint,
                            const Make& make) {
   const ConvertedScan scan = make();
-  const bool is_empty = scan.cloud.points.empty();  // no stage after this one could use it
-  if (!is_empty) folder_.write(cloud_name, fingerprint, scan.cloud, scan.counts);
+  std::string refusal = scan.refusal;
+  // No stage after this one could use an empty cloud.
+  if (refusal.empty() && scan.cloud.points.empty()) refusal = "without a valid point";
+  if (refusal.empty()) folder_.write(cloud_name, fingerprint, scan.cloud, scan.counts);
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (is_empty) {
-    report_.dropped["without a valid point"].push_back(cloud_name);
+  if (!refusal.empty()) {
+    report_.dropped[refusal].push_back(cloud_name);
   } else {
     done_[cloud_name] = {scan.counts, false};
   }
@@ -159,6 +163,22 @@ void Conversion::drop(const std::string& scan_name, const std::string& reason) {
   progress_.add(1);
 }
 
+void Conversion::dropUnposed(const std::string& scan_name, pcrb::Stamp stamp,
+                             const std::string& reason) {
+  drop(scan_name, reason);
+  unposed_.push_back(stamp);
+}
+
+void Conversion::requireClouds() const {
+  if (!report_.written.empty()) return;
+  std::string why;
+  if (!unposed_.empty() && !pose_stamps_.empty()) {
+    why = "; no pose: " + pcrb::describeMismatch(unposed_, pose_stamps_);
+  }
+  throw pcrb::InvalidFile(folder_.path(),
+                          "no scan became a cloud" + why + "\n" + formatReport(report_));
+}
+
 void Conversion::noteTimeJump() {
   if (!went_back_) note("the stamps went back: what was published again was converted once");
   went_back_ = true;
@@ -177,9 +197,7 @@ ConversionReport Conversion::finish() {
   Interruption::check();
   progress_.finish();
   summarize();
-  if (report_.written.empty()) {
-    throw pcrb::InvalidFile(folder_.path(), "no scan became a cloud\n" + formatReport(report_));
-  }
+  requireClouds();
   if (!live_) report_.removed = folder_.removeStale(report_.written);
   report_.others = folder_.othersThan(report_.written);
   if (!report_.others.empty()) {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/progress.hpp"
@@ -25,6 +26,7 @@ namespace pcrb_tools {
 struct ConvertedScan {
   pcrb::DatasetCloud cloud;
   pcrb::PointCounts counts;
+  std::string refusal{};  ///< why there is no cloud; empty = there is
 };
 
 /// One run of a converter: clouds are made in parallel and end up in their folder; what an earlier
@@ -61,6 +63,12 @@ class Conversion {
   /// Counts a scan that becomes no cloud.
   void drop(const std::string& scan_name, const std::string& reason);
 
+  /// Counts a scan without a pose. If no scan has one, the error says why, by these stamps.
+  void dropUnposed(const std::string& scan_name, pcrb::Stamp stamp, const std::string& reason);
+
+  /// @param stamps  of the poses, ascending
+  void setPoseStamps(std::vector<pcrb::Stamp> stamps) { pose_stamps_ = std::move(stamps); }
+
   /// Throws what a scan has thrown, for callers between whose scans time may pass.
   void check() { workers_.check(); }
 
@@ -85,12 +93,15 @@ class Conversion {
   WorkerPool::Job jobFor(const std::string& cloud_name, Make make);
   void makeCloud(const std::string& cloud_name, const std::string& fingerprint, const Make& make);
   void summarize();
+  void requireClouds() const;
 
   CloudFolder folder_;
   std::mutex mutex_;
   ConversionReport report_;
   std::map<std::string, std::string> fingerprints_;  ///< of the announced clouds
   std::map<std::string, Done> done_;
+  std::vector<pcrb::Stamp> unposed_;      ///< of scans without a pose
+  std::vector<pcrb::Stamp> pose_stamps_;  ///< ascending
   bool went_back_ = false;
   Progress progress_;
   const bool live_;
@@ -98,8 +109,9 @@ class Conversion {
   WorkerPool workers_;  // last: its threads end before what they use
 };
 
-/// Notes poses of a ground truth that were not used, as they have the stamp of an earlier one.
-void noteDuplicatePoses(const pcrb::Trajectory& trajectory, Conversion& conversion);
+/// Tells a conversion of the poses of a ground truth: their stamps, and how many were not used, as
+/// a later one has their stamp.
+void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion);
 
 /// A pose for fingerprints: equal texts mean equal bits.
 std::string poseText(const pcrb::Transform& pose);

@@ -175,10 +175,11 @@ ConversionReport convertKaistBags(const KaistRequest& request) {
   const BagMessages bags(request.inputs);
   const std::size_t lefts = bags.count({request.left_topic});
   if (lefts == 0 || bags.count({request.right_topic}) == 0) {
-    throw pcrb::InvalidFile(
-        request.inputs.front(), 0,
-        "no message on " + (lefts == 0 ? request.left_topic : request.right_topic),
-        "scans of both sensors");
+    throw pcrb::InvalidFile(request.inputs.front(), 0,
+                            "no message on " +
+                                (lefts == 0 ? request.left_topic : request.right_topic) +
+                                " among " + bags.describeTopics(),
+                            "scans of both sensors (--left-topic, --right-topic)");
   }
   const KaistFrames frames = readFrames(request, nullptr);
   const std::string sequence = kaistSequence(request, request.inputs.front());

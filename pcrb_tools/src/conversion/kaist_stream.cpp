@@ -54,7 +54,7 @@ KaistScanSelector::KaistScanSelector(const KaistFrames& frames, const KaistReque
       sequence_(sequence),
       conversion_(conversion),
       limiter_(request.max_rate) {
-  noteDuplicatePoses(frames.trajectory, conversion);
+  announcePoses(frames.trajectory, conversion);
 }
 
 std::optional<KaistScanSelector::Pair> KaistScanSelector::select(pcrb::Stamp left,
@@ -70,7 +70,10 @@ std::optional<KaistScanSelector::Pair> KaistScanSelector::select(pcrb::Stamp lef
   }
   const auto left_pose = pcrb::kaistPose(frames_.trajectory, left, request_.options);
   const auto right_pose = pcrb::kaistPose(frames_.trajectory, *right, request_.options);
-  if (left_pose.status != pcrb::PoseStatus::kFound) return drop(toString(left_pose.status));
+  if (left_pose.status != pcrb::PoseStatus::kFound) {
+    conversion_.dropUnposed(name, left, toString(left_pose.status));
+    return std::nullopt;
+  }
   if (right_pose.status != pcrb::PoseStatus::kFound) {
     return drop(std::string("the right scan is ") + toString(right_pose.status));
   }

@@ -94,7 +94,7 @@ ConversionReport convertLive(const TumRequest& request, const LiveOptions& optio
   const pcrb::Trajectory trajectory =
       pcrb::parseTumTrajectory(pcrb::FileBytes(request.poses).text(), request.poses);
   Conversion conversion(asLive(request, options), request.sequence, 0);
-  noteDuplicatePoses(trajectory, conversion);
+  announcePoses(trajectory, conversion);
   TumStream stream(trajectory, request.options, request.options.input, kLiveIdentity, conversion);
   LiveInput input;
   subscribeToTum(request.options, stream, input);

@@ -58,8 +58,8 @@ std::string requireOneSet(const LogFiles& files, const std::map<std::string, std
 }
 
 ConvertedScan makePlanetaryCloud(std::string_view bytes, const std::string& path,
-                                 const pcrb::Transform& T_world_sensor) {
-  pcrb::SensorScan scan = pcrb::parsePlanetaryScan(bytes, path);
+                                 const pcrb::Transform& T_world_sensor, double max_malformed) {
+  pcrb::SensorScan scan = pcrb::parsePlanetaryScan(bytes, path, max_malformed);
   const pcrb::PointCounts counts = scan.counts;
   return {pcrb::placeScan(std::move(scan), T_world_sensor), counts};
 }
@@ -84,8 +84,9 @@ ConversionReport convertPlanetary(const PlanetaryRequest& request) {
     const pcrb::Transform T_world_sensor = pcrb::parsePlanetaryPose(
         files.text(pose_file->second), files.all()[pose_file->second].path());
     work.push_back({index, stem + ".pcd", poseText(T_world_sensor),
-                    [T_world_sensor](std::string_view bytes, const std::string& path) {
-                      return makePlanetaryCloud(bytes, path, T_world_sensor);
+                    [T_world_sensor, limit = request.max_malformed](std::string_view bytes,
+                                                                    const std::string& path) {
+                      return makePlanetaryCloud(bytes, path, T_world_sensor, limit);
                     }});
   }
   Conversion conversion(request, request.sequence.empty() ? set : request.sequence, work.size());

@@ -7,22 +7,31 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/message_conversion.hpp"
+#include "pcrb_server/point_times.hpp"
 
 namespace pcrb_tools {
 namespace {
 
-pcrb::SensorScan readPoints(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin) {
+template <typename Take>
+void forEachPoint(const sensor_msgs::PointCloud2& message, const Take& take) {
   const std::size_t count = pcrb::countPoints(message);
   const pcrb::PointField x(message, "x");
   const pcrb::PointField y(message, "y");
   const pcrb::PointField z(message, "z");
+  for (std::size_t i = 0; i != count; ++i) take(i, Eigen::Vector3d(x[i], y[i], z[i]));
+}
+
+pcrb::SensorScan readPoints(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin) {
   pcrb::SensorScan scan;
-  scan.points.reserve(count);
-  for (std::size_t i = 0; i != count; ++i) scan.add({x[i], y[i], z[i]}, origin);
+  scan.points.reserve(pcrb::countPoints(message));
+  forEachPoint(message,
+               [&](std::size_t, const Eigen::Vector3d& point) { scan.add(point, origin); });
   return scan;
 }
 
 constexpr std::size_t kMaxPixels = std::size_t{1} << 23;
+constexpr std::size_t kHarmlessPixels = std::size_t{1} << 21;  ///< however well they are packed
+constexpr std::size_t kMaxPacking = 100;                       ///< pixels of a byte of the file
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
 [[noreturn]] void refusePng(const std::string& name, const std::string& why) {
@@ -69,6 +78,21 @@ pcrb::SensorScan scanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoi
                         const std::string& name) {
   try {
     return readPoints(message, origin);
+  } catch (const pcrb::InvalidProblem& error) {
+    throw pcrb::InvalidFile(name, error.what());
+  }
+}
+
+pcrb::SensorScan timedScanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin,
+                             const std::string& name) {
+  try {
+    const std::vector<double> times = pcrb::pointTimes(message);
+    pcrb::SensorScan scan;
+    forEachPoint(message, [&](std::size_t i, const Eigen::Vector3d& point) {
+      scan.add(point, origin);
+      if (!times.empty() && scan.points.size() > scan.times.size()) scan.times.push_back(times[i]);
+    });
+    return scan;
   } catch (const pcrb::InvalidProblem& error) {
     throw pcrb::InvalidFile(name, error.what());
   }
@@ -127,9 +151,12 @@ DepthPng decodeDepthPng(std::string_view bytes, const std::string& name) {
     refusePng(name, "found another kind of PNG, expected 16 bits of grey");
   }
   const std::size_t count = std::size_t{image.width} * image.height;
-  if (count > kMaxPixels)
-    refusePng(name, "found " + std::to_string(count) + " pixels, expected at most " +
-                        std::to_string(kMaxPixels));
+  const std::size_t limit = std::min(kMaxPixels, kHarmlessPixels + kMaxPacking * bytes.size());
+  if (count > limit) {
+    refusePng(name, "found " + std::to_string(count) + " pixels in " +
+                        std::to_string(bytes.size()) + " bytes, expected at most " +
+                        std::to_string(limit));
+  }
   DepthPng decoded{image.width, image.height, std::vector<std::uint16_t>(count)};
   if (png_image_finish_read(&image, nullptr, decoded.pixels.data(), 0, nullptr) == 0) {
     refusePng(name, image.message);

@@ -25,6 +25,10 @@ pcrb::Stamp stampOf(const ros::Time& time);
 pcrb::SensorScan scanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin,
                         const std::string& name);
 
+/// The same with the times of the points, where a field of pcrb::pointTimeScale() has them.
+pcrb::SensorScan timedScanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin,
+                             const std::string& name);
+
 /// The points of a depth image, 32FC1 in metres or 16UC1 (mono16) in units.
 /// @param units_per_metre  of 16UC1; 1000 by convention of ROS (REP 118)
 /// @throws InvalidFile  for other encodings and sizes that make no sense.
@@ -49,8 +53,9 @@ struct DepthPng {
 /// Decodes a PNG with 16 bits of grey, to the numbers that are stored: gamma and the like change no
 /// depth.
 /// @param name  stands for the path in messages
-/// @throws InvalidFile  if it is damaged, of another kind, or claims more than 2^23 pixels: that is
-///                      refused before memory is taken for them.
+/// @throws InvalidFile  if it is damaged, of another kind, or claims more pixels than a sensor
+///                      has (2^23; 2^21 and 100 a byte of the file): that is refused before
+///                      memory is taken for them.
 DepthPng decodeDepthPng(std::string_view bytes, const std::string& name);
 
 }  // namespace pcrb_tools

@@ -49,8 +49,9 @@ void convertDepth(const TumOptions& options, const BagMessages& bags, TumStream&
     stream.setCamera(*messageAs<sensor_msgs::CameraInfo>(message));
   });
   if (!stream.hasCamera()) {
-    throw pcrb::InvalidFile("topic " + options.info_topic, 0, "no message",
-                            "the camera (or give fx fy cx cy: intrinsics)");
+    throw pcrb::InvalidFile("topic " + options.info_topic, 0,
+                            "no message among " + bags.describeTopics(),
+                            "the camera (--info-topic, or give fx fy cx cy: --intrinsics)");
   }
   bags.forEach({options.depth_topic}, [&stream](const rosbag::MessageInstance& message) {
     stream.addDepth(messageAs<sensor_msgs::Image>(message));
@@ -142,7 +143,7 @@ ConversionReport convertImages(const TumRequest& request) {
   const std::size_t list = requireOne(files, kListFile);
   const pcrb::Trajectory trajectory = readTrajectory(files, request);
   Conversion conversion(request, tumSequenceOf(request, files.all()[list]), 0);
-  noteDuplicatePoses(trajectory, conversion);
+  announcePoses(trajectory, conversion);
   TumScanSelector selector(trajectory, request.options, maxRate(request.options, TumInput::kDepth),
                            conversion);
   const pcrb::Intrinsics intrinsics = request.options.intrinsics.value_or(pcrb::Intrinsics());
@@ -166,14 +167,15 @@ ConversionReport convertTumBags(const TumRequest& request) {
       input == TumInput::kClouds ? request.options.cloud_topic : request.options.depth_topic;
   const std::size_t total = bags.count({topic});
   if (total == 0) {
-    throw pcrb::InvalidFile(request.inputs.front(), 0, "no message on " + topic,
-                            "clouds or depth images");
+    throw pcrb::InvalidFile(request.inputs.front(), 0,
+                            "no message on " + topic + " among " + bags.describeTopics(),
+                            "clouds or depth images (--cloud-topic, --depth-topic)");
   }
   const std::string log_name = fs::path(logPath(request.inputs.front())).filename().string();
   Conversion conversion(
       request, request.sequence.empty() ? pcrb::tumSequenceName(log_name) : request.sequence,
       total);
-  noteDuplicatePoses(trajectory, conversion);
+  announcePoses(trajectory, conversion);
   TumStream stream(trajectory, request.options, input, bags.identity(), conversion);
   if (input == TumInput::kClouds) {
     convertClouds(request.options, bags, stream);

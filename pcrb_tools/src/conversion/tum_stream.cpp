@@ -34,7 +34,10 @@ std::optional<pcrb::Transform> TumScanSelector::select(pcrb::Stamp stamp) {
   };
   if (clock_.goesBack(stamp)) conversion_.noteTimeJump();
   const pcrb::PoseLookup lookup = poseAt(stamp);
-  if (lookup.status != pcrb::PoseStatus::kFound) return drop(pcrb::toString(lookup.status));
+  if (lookup.status != pcrb::PoseStatus::kFound) {
+    conversion_.dropUnposed(cloudName(stamp), stamp, pcrb::toString(lookup.status));
+    return std::nullopt;
+  }
   const bool is_due = limiter_.keep(stamp);  // asked of a repetition, too: it has its place in time
   if (admitted_.count(stamp) > 0) return drop("the stamp of an earlier one");
   if (!is_due) return drop("beyond the maximal rate");

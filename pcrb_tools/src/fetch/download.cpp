@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "fetch/transfer.hpp"
 #include "pcrb_core/error.hpp"
@@ -96,7 +98,7 @@ class Attempts {
         is_confirmed = true;
         continue;
       }
-      if (result.outcome == TransferResult::Outcome::kComplete) return;
+      if (result.outcome == TransferResult::Outcome::kComplete || isSameEnd(result)) return;
       if (result.outcome == TransferResult::Outcome::kPermanent) fail(file_, result.what);
       if (result.outcome == TransferResult::Outcome::kRestart) removePart(part_);
       if (sizeOrZero(part_) > before) {  // it gets on: be as patient as at first
@@ -107,6 +109,13 @@ class Attempts {
       std::this_thread::sleep_for(delay);
       delay *= 2;
     }
+  }
+
+  /// Whether the connection ended without a length at the same place as the time before.
+  bool isSameEnd(const TransferResult& result) {
+    if (result.outcome != TransferResult::Outcome::kEnded) return false;
+    const std::uintmax_t end = sizeOrZero(part_);
+    return std::exchange(ended_at_, end) == end;
   }
 
   void accept() {
@@ -154,6 +163,7 @@ class Attempts {
   const DownloadPolicy& policy_;
   Transfer transfer_;
   std::string part_;
+  std::uintmax_t ended_at_ = std::numeric_limits<std::uintmax_t>::max();
 };
 
 }  // namespace

@@ -29,7 +29,9 @@ struct DownloadPolicy {
 
 /// Downloads a file, going on from `<destination>.part` where an earlier attempt or run stopped.
 ///
-/// Interrupted transfers and server errors are tried again, others are not. A file that changed on
+/// Interrupted transfers and server errors are tried again, others are not. Where the connection
+/// ends without a length having been said, the file is asked for again, until it ends at the same
+/// place twice. A file that changed on
 /// the server in between (ETag, Last-Modified) is begun anew. The file gets its name only when it
 /// is complete, of the right size and has passed its check; one that has not is removed.
 /// @throws pcrb::Error  saying what the server or the network said.

@@ -7,10 +7,12 @@
 #include "common/process.hpp"
 #include "common/progress.hpp"
 #include "fetch/checksums.hpp"
+#include "fetch/dspace.hpp"
 #include "fetch/published_files.hpp"
 #include "fetch/sources.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/number.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -58,6 +60,8 @@ class Fetch {
   }
 
   bool describe() const {
+    std::uint64_t bytes = 0;
+    std::size_t unknown = 0;
     for (const Source& source : sources_) {
       out_ << source.name() << ": ";
       const std::string by_hand = findByHand(source);
@@ -65,46 +69,85 @@ class Fetch {
         out_ << "is there: " << pathOf(source);
       } else if (!by_hand.empty()) {
         out_ << "take " << by_hand;
-      } else if (!source.url.empty()) {
-        out_ << "download " << source.url << " to " << pathOf(source);
+      } else if (!source.places.empty()) {
+        const Place& place = source.places.front();
+        out_ << "download " << place.describe() << " to " << pathOf(source);
+        if (place.bytes) out_ << ", " << inGigabytes(*place.bytes);
+        bytes += place.bytes.value_or(0);
+        if (!place.bytes) ++unknown;
       } else {
         out_ << "needs you: " << source.by_hand << "; there = " << pathOf(source);
       }
       out_ << "\n";
     }
+    if (bytes > 0) out_ << describeTotal(bytes) << "\n";
+    if (unknown > 0) out_ << unknown << " downloads are of unknown size\n";
     out_ << sources_.size() << " files; nothing was done (--dry-run)" << std::endl;
     return true;
   }
 
+  static std::string inGigabytes(std::uint64_t bytes) {
+    return pcrb::formatFixed(static_cast<double>(bytes) / 1e9, 2) + " GB";
+  }
+
+  static std::string describeTotal(std::uint64_t bytes) {
+    const double hours = static_cast<double>(bytes) / 1e7 / 3600.0;
+    return "known in all: " + inGigabytes(bytes) + ", " + pcrb::formatFixed(hours, 1) +
+           " h at 10 MB/s";
+  }
+
   void fetch(const Source& source) {
     const std::string path = pathOf(source);
+    Place place = source.known();
     if (!fs::is_regular_file(path)) {
       const std::string by_hand = findByHand(source);
       if (!by_hand.empty()) {
-        requireContent(source, by_hand);
+        requireContent(source, by_hand, place.bytes);
         fs::create_directories(fs::path(path).parent_path());
         fs::remove(path);  // a link to a file that is gone
         fs::create_symlink(by_hand, path);
-      } else if (source.url.empty()) {
+      } else if (source.places.empty()) {
         throw pcrb::InvalidParameter(source.name() + " cannot be downloaded: " + source.by_hand +
                                      "; there = " + path + ", or a folder for --from");
       } else {
-        downloadTo(source, path);
+        place = downloadFromOne(source, path);
       }
     } else if (checksums_.find(source.file).empty()) {
-      requireContent(source, path);  // put there by hand
+      requireContent(source, path, place.bytes);  // put there by hand
     }
-    checksums_.check(source.file, path, source.sha256);
+    checksums_.check(source.file, path, place.sha256);
   }
 
-  void downloadTo(const Source& source, const std::string& path) const {
+  /// Tries the places in turn; if all fail, the error names each with its cause.
+  Place downloadFromOne(const Source& source, const std::string& path) const {
+    std::string failures;
+    for (const Place& place : source.places) {
+      try {
+        const bool is_in_dspace = !place.dspace_item.empty();
+        const Place found =
+            is_in_dspace ? findInDspace(place, path + ".dspace.json", options_.policy) : place;
+        downloadFrom(found, source, path);
+        return found;
+      } catch (const pcrb::InvalidFile& error) {
+        if (source.places.size() == 1) throw;
+        failures += (failures.empty() ? "" : "; ") + std::string(error.what());
+      }
+    }
+    throw pcrb::InvalidFile(source.file, "none of " + std::to_string(source.places.size()) +
+                                             " places has it: " + failures);
+  }
+
+  void downloadFrom(const Place& place, const Source& source, const std::string& path) const {
     Progress progress(source.file, "bytes", 0);
     DownloadPolicy policy = options_.policy;
     policy.on_progress = [&](std::uint64_t done, std::uint64_t total) {
       progress.set(done, total);
     };
-    download({source.url, path, source.google_drive, source.bytes,
-              [&](const std::string& part) { requireContent(source, part); }},
+    download({place.url, path, place.google_drive, place.bytes,
+              [&](const std::string& part) {
+                requireContent(source, part, place.bytes);
+                if (!place.md5.empty()) requireMd5(part, place.md5);
+              }},
              policy);
     progress.finish();
   }

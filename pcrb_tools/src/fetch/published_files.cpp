@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <string_view>
 
 #include "archives/archive_reader.hpp"
+#include "archives/bag_messages.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/derived_file.hpp"
@@ -18,8 +18,6 @@ namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view kBagMagic = "#ROSBAG V2.0";
 
 /// Reads all of an archive: it must be whole, its files undamaged as far as it has checksums of
 /// them, and its names must not point out of it.
@@ -33,10 +31,8 @@ void requireArchive(const std::string& path) {
 
 void requireLog(const Source& source, const std::string& path) {
   if (beginsLikeHtml(path)) throw pcrb::InvalidFile(path, 0, "an HTML page", "a log");
-  if (fs::path(source.file).extension() != ".bag") return;
-  std::string magic(kBagMagic.size(), ' ');
-  std::ifstream(path, std::ios::binary).read(magic.data(), static_cast<long>(magic.size()));
-  if (magic != kBagMagic) throw pcrb::InvalidFile(path, 0, "another beginning", "a bag of ROS 1");
+  if (!isBag(source.file)) return;
+  requireWholeBag(path);
 }
 
 /// Three million points as text; the published clouds have at most a tenth of that.
@@ -62,10 +58,11 @@ bool isCloud(const fs::path& path) {
 
 }  // namespace
 
-void requireContent(const Source& source, const std::string& path) {
-  if (source.bytes && fs::file_size(path) != *source.bytes) {
+void requireContent(const Source& source, const std::string& path,
+                    const std::optional<std::uint64_t>& bytes) {
+  if (bytes && fs::file_size(path) != *bytes) {
     throw pcrb::InvalidFile(path, 0, std::to_string(fs::file_size(path)) + " bytes",
-                            std::to_string(*source.bytes));
+                            std::to_string(*bytes));
   }
   switch (source.kind) {
     case SourceKind::kCloud:

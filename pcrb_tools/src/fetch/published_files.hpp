@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,8 +14,10 @@ namespace pcrb_tools {
 /// Makes sure that a file is what its source says: of the right size where that is known, and whole
 /// and readable as what it is. A page of HTML with a good name is not.
 ///
+/// @param bytes  its size, where known
 /// @throws pcrb::Error  naming the file, what was found and what was expected.
-void requireContent(const Source& source, const std::string& path);
+void requireContent(const Source& source, const std::string& path,
+                    const std::optional<std::uint64_t>& bytes);
 
 /// Writes a published file into the common layout, with its folders; one that is there with the
 /// same bytes is left alone.

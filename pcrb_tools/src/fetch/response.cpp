@@ -25,6 +25,7 @@ std::string lowered(std::string_view text) {
 void Response::readHeader(std::string_view line) {
   if (line.substr(0, 5) == "HTTP/") {  // of a redirection or of the final response: forget the last
     is_http = true;
+    is_framed = line.substr(0, 7) != "HTTP/1.";
     is_html = false;
     etag.clear();
     last_modified.clear();
@@ -44,6 +45,7 @@ void Response::readHeader(std::string_view line) {
   if (name == "etag" && value.substr(0, 2) != "W/") etag = value;
   if (name == "last-modified") last_modified = value;
   if (name == "content-range") content_range = value;
+  if (name == "content-length" || name == "transfer-encoding") is_framed = true;
   if (name == "content-type") is_html = lowered(value).find("text/html") == 0;
 }
 

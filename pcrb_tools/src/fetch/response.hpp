@@ -23,6 +23,7 @@ struct Response {
 
   bool is_http = false;
   long status = 0;
+  bool is_framed = false;  ///< the end of the body can be told from the end of the connection
   bool is_html = false;
   std::string etag;
   std::string last_modified;

@@ -95,36 +95,72 @@ class SourceReader {
     return *value;
   }
 
-  Source readSource(const YAML::Node& node) {
+  using Setters = std::map<std::string, std::function<void(const YAML::Node&)>>;
+
+  void setAll(const YAML::Node& node, const Setters& setters) const {
     if (!node.IsMap()) fail(node, "no map", "the keys of a file");
-    Source source;
-    const std::map<std::string, std::function<void(const YAML::Node&)>> setters{
-        {"data_set", [&](const YAML::Node& value) { source.data_set = plainName(value); }},
-        {"sequence", [&](const YAML::Node& value) { source.sequence = plainName(value); }},
-        {"file", [&](const YAML::Node& value) { source.file = plainName(value); }},
-        {"url", [&](const YAML::Node& value) { source.url = url(value); }},
-        {"by_hand", [&](const YAML::Node& value) { source.by_hand = text(value); }},
-        {"needs", [&](const YAML::Node& value) { source.needs = text(value); }},
-        {"sha256", [&](const YAML::Node& value) { source.sha256 = sha256(value); }},
-        {"bytes", [&](const YAML::Node& value) { source.bytes = bytes(value); }},
-        {"google_drive",
-         [&](const YAML::Node& value) {
-           source.google_drive = oneOf<bool>(value, {{"true", true}, {"false", false}});
-         }},
-        {"kind",
-         [&](const YAML::Node& value) {
-           source.kind = oneOf<SourceKind>(value, {{"log", SourceKind::kLog},
-                                                   {"clouds", SourceKind::kClouds},
-                                                   {"cloud", SourceKind::kCloud},
-                                                   {"problems", SourceKind::kProblems}});
-         }},
-        {"set", [&](const YAML::Node& value) { readSet(value, source); }}};
     for (const auto& entry : node) {
       const auto setter = setters.find(text(entry.first));
       if (setter == setters.end())
         fail(entry.first, pcrb::inQuotes(text(entry.first)), "a known key");
       setter->second(entry.second);
     }
+  }
+
+  Setters placeSetters(Place& place) const {
+    return {{"url", [&](const YAML::Node& value) { place.url = url(value); }},
+            {"dspace_item", [&](const YAML::Node& value) { place.dspace_item = text(value); }},
+            {"dspace_name", [&](const YAML::Node& value) { place.dspace_name = plainName(value); }},
+            {"sha256", [&](const YAML::Node& value) { place.sha256 = sha256(value); }},
+            {"bytes", [&](const YAML::Node& value) { place.bytes = bytes(value); }},
+            {"google_drive", [&](const YAML::Node& value) {
+               place.google_drive = oneOf<bool>(value, {{"true", true}, {"false", false}});
+             }}};
+  }
+
+  void requireWhole(const YAML::Node& node, const Place& place) const {
+    if (place.url.empty()) fail(node, "no url", "one");
+    if (place.dspace_item.empty() != place.dspace_name.empty()) {
+      fail(node, "one of dspace_item and dspace_name", "both or neither");
+    }
+  }
+
+  std::vector<Place> readMirrors(const YAML::Node& node) const {
+    if (!node.IsSequence()) fail(node, "no list", "a list of maps with a url");
+    std::vector<Place> mirrors(node.size());
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      setAll(node[i], placeSetters(mirrors[i]));
+      requireWhole(node[i], mirrors[i]);
+    }
+    return mirrors;
+  }
+
+  Source readSource(const YAML::Node& node) {
+    Source source;
+    Place place;
+    std::vector<Place> mirrors;
+    Setters setters = placeSetters(place);
+    setters.merge(
+        Setters{{"data_set", [&](const YAML::Node& value) { source.data_set = plainName(value); }},
+                {"sequence", [&](const YAML::Node& value) { source.sequence = plainName(value); }},
+                {"file", [&](const YAML::Node& value) { source.file = plainName(value); }},
+                {"mirrors", [&](const YAML::Node& value) { mirrors = readMirrors(value); }},
+                {"by_hand", [&](const YAML::Node& value) { source.by_hand = text(value); }},
+                {"needs", [&](const YAML::Node& value) { source.needs = text(value); }},
+                {"kind",
+                 [&](const YAML::Node& value) {
+                   source.kind = oneOf<SourceKind>(value, {{"log", SourceKind::kLog},
+                                                           {"clouds", SourceKind::kClouds},
+                                                           {"cloud", SourceKind::kCloud},
+                                                           {"problems", SourceKind::kProblems}});
+                 }},
+                {"set", [&](const YAML::Node& value) { readSet(value, source); }}});
+    setAll(node, setters);
+    if (!place.url.empty()) {
+      requireWhole(node, place);
+      source.places.push_back(place);
+    }
+    source.places.insert(source.places.end(), mirrors.begin(), mirrors.end());
     requireComplete(node, source);
     return source;
   }
@@ -140,8 +176,8 @@ class SourceReader {
       if (!node[key])
         fail(node, std::string("no ") + key, "data_set, sequence, set, kind and file");
     }
-    if (source.url.empty() == source.by_hand.empty()) {
-      fail(node, source.url.empty() ? "neither" : "both", "either url or by_hand");
+    if (source.places.empty() == source.by_hand.empty()) {
+      fail(node, source.places.empty() ? "neither" : "both", "either url or by_hand");
     }
     if (!files_.insert(source.file).second) fail(node, source.file + " again", "every file once");
   }

@@ -21,6 +21,22 @@ enum class SourceSet {
   kOriginal    ///< the original logs
 };
 
+/// Where a file can be downloaded, and what it must be then, where known.
+struct Place {
+  std::string url;            ///< of the file; with dspace_item that of the server's REST interface
+  std::string dspace_item;    ///< UUID of an item in a DSpace 7 repository
+  std::string dspace_name;    ///< of the file in that item
+  bool google_drive = false;  ///< the download needs a confirmation
+  std::optional<std::uint64_t> bytes;
+  std::string sha256;  ///< empty: recorded at the first download
+  std::string md5;     ///< as a repository says; never from the list
+
+  /// For messages.
+  std::string describe() const {
+    return dspace_item.empty() ? url : dspace_name + " of item " + dspace_item + " at " + url;
+  }
+};
+
 /// One file of the list of sources.
 struct Source {
   std::string data_set;
@@ -28,13 +44,13 @@ struct Source {
   bool is_published = false;  ///< belongs to the published problem files
   bool is_original = false;   ///< belongs to the original logs
   SourceKind kind = SourceKind::kLog;
-  std::string file;     ///< name below the folder of logs, with folders
-  std::string url;      ///< empty: must be had by hand
-  std::string by_hand;  ///< how
-  std::string needs;    ///< `<data set>/<sequence>` whose clouds the problems pose; empty = its own
-  bool google_drive = false;
-  std::optional<std::uint64_t> bytes;
-  std::string sha256;  ///< empty: recorded at the first download
+  std::string file;           ///< name below the folder of logs, with folders
+  std::vector<Place> places;  ///< tried in turn; empty: the file must be had by hand
+  std::string by_hand;        ///< how
+  std::string needs;  ///< `<data set>/<sequence>` whose clouds the problems pose; empty = its own
+
+  /// What the file must be wherever it is from: something is known only where there is one place.
+  Place known() const { return places.size() == 1 ? places.front() : Place(); }
 
   /// `<data set>/<sequence>`.
   std::string name() const { return data_set + "/" + sequence; }

@@ -87,7 +87,9 @@ TransferResult judge(const Response& response, std::uint64_t before) {
                                                         : TransferResult::Outcome::kPermanent;
     result.what = "the server answers with status " + std::to_string(response.status);
   } else if (response.code == CURLE_OK) {
-    result.outcome = TransferResult::Outcome::kComplete;
+    const bool is_sure = !response.is_http || response.is_framed || !response.html.empty();
+    result.outcome = is_sure ? TransferResult::Outcome::kComplete : TransferResult::Outcome::kEnded;
+    if (!is_sure) result.what = "the connection ends early, or the server says no length";
   } else if (isTransient(response.code)) {
     result.outcome = TransferResult::Outcome::kTransient;
   } else if (cannotResume(response.code) && before > 0) {

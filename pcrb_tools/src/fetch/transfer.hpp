@@ -11,6 +11,7 @@ namespace pcrb_tools {
 struct TransferResult {
   enum class Outcome {
     kComplete,   ///< the part file is complete, as far as the server said
+    kEnded,      ///< the connection ended, and no length was said: it may have broken
     kTransient,  ///< worth another attempt from where the part file ends
     kRestart,    ///< worth another attempt without the part file
     kPermanent

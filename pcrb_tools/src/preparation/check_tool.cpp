@@ -49,43 +49,84 @@ class Report {
   std::map<Severity, std::size_t> counts_;
 };
 
-bool isToBeChecked(const std::vector<std::string>& wanted, const SequenceFiles& files) {
-  if (wanted.empty()) return true;
-  return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& word) {
-    return pcrb::namesSequence(word, {files.data_set, files.sequence});
-  });
-}
+/// What there is to check below a root, by `<data set>/<sequence>`.
+struct Contents {
+  std::vector<SequenceFiles> files;
+  std::vector<pcrb::SequenceName> bare;  ///< folders that no problem file uses
+};
 
-std::vector<SequenceFiles> findWanted(const CheckOptions& options) {
-  std::vector<SequenceFiles> found = pcrb::findSequences(options.root);
-  if (found.empty()) {
-    throw pcrb::InvalidFile(options.root, 0, "no problem file",
-                            "<data set>/<sequence>_local.txt or _global.txt");
+bool hasClouds(const std::string& folder) { return !pcrb::findClouds(folder).empty(); }
+
+Contents findContents(const std::string& root) {
+  Contents contents;
+  contents.files = pcrb::findSequences(root);
+  std::set<fs::path> used;
+  std::set<std::string> with_problems;
+  for (const SequenceFiles& files : contents.files) {
+    used.insert(fs::path(files.cloud_folder));
+    with_problems.insert(files.data_set);
   }
-  for (const std::string& name : options.sequences) {
-    if (std::none_of(found.begin(), found.end(),
-                     [&](const SequenceFiles& files) { return isToBeChecked({name}, files); })) {
-      throw pcrb::InvalidParameter("found no problem file of '" + name + "' below " + options.root);
+  for (const auto& data_set : fs::directory_iterator(root)) {
+    if (!data_set.is_directory()) continue;
+    const std::string name = data_set.path().filename().string();
+    for (const auto& entry : fs::directory_iterator(data_set)) {
+      if (!entry.is_directory() || used.count(entry.path()) > 0) continue;
+      if (with_problems.count(name) > 0 || hasClouds(entry.path().string())) {
+        contents.bare.push_back({name, entry.path().filename().string()});
+      }
     }
   }
-  found.erase(std::remove_if(found.begin(), found.end(),
-                             [&](const SequenceFiles& files) {
-                               return !isToBeChecked(options.sequences, files);
-                             }),
-              found.end());
-  return found;
+  std::sort(contents.bare.begin(), contents.bare.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.data_set, a.sequence) < std::pair(b.data_set, b.sequence);
+  });
+  return contents;
 }
 
-/// Folders of clouds that no problem file uses, and sequences with one list only.
-std::vector<Finding> checkLayout(const std::string& root, const std::vector<SequenceFiles>& all) {
+bool isWantedName(const std::vector<std::string>& wanted, const pcrb::SequenceName& name) {
+  return wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const std::string& word) {
+           return pcrb::namesSequence(word, name);
+         });
+}
+
+pcrb::SequenceName nameOf(const SequenceFiles& files) { return {files.data_set, files.sequence}; }
+
+/// Takes away what is not wanted; every word must name something.
+Contents selectWanted(const CheckOptions& options) {
+  Contents contents = findContents(options.root);
+  if (contents.files.empty() && contents.bare.empty()) {
+    throw pcrb::InvalidFile(options.root, 0, "no problem file and no clouds",
+                            "<data set>/<sequence>_local.txt or _global.txt, or folders of .pcd");
+  }
+  for (const std::string& word : options.sequences) {
+    const auto is_named = [&word](const pcrb::SequenceName& name) {
+      return pcrb::namesSequence(word, name);
+    };
+    const bool is_there =
+        std::any_of(contents.bare.begin(), contents.bare.end(), is_named) ||
+        std::any_of(contents.files.begin(), contents.files.end(),
+                    [&](const SequenceFiles& files) { return is_named(nameOf(files)); });
+    if (is_there) continue;
+    throw pcrb::InvalidParameter("found no problem file and no clouds of '" + word + "' below " +
+                                 options.root);
+  }
+  const auto keep = [&options](auto& all, auto name_of) {
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const auto& each) {
+                               return !isWantedName(options.sequences, name_of(each));
+                             }),
+              all.end());
+  };
+  keep(contents.files, nameOf);
+  keep(contents.bare, [](const pcrb::SequenceName& name) { return name; });
+  return contents;
+}
+
+/// Sequences with one list only.
+std::vector<Finding> checkLists(const std::string& root, const std::vector<SequenceFiles>& all) {
   std::vector<Finding> findings;
-  std::set<std::string> used;
   std::map<std::string, std::set<pcrb::Kind>> kinds;
-  std::set<std::string> data_sets;
   for (const SequenceFiles& files : all) {
-    used.insert(fs::path(files.cloud_folder).filename().string());
     kinds[root + "/" + files.data_set + "/" + files.sequence].insert(files.kind);
-    data_sets.insert(files.data_set);
   }
   for (const auto& [sequence, some] : kinds) {
     if (some.size() == 2) continue;
@@ -93,13 +134,6 @@ std::vector<Finding> checkLayout(const std::string& root, const std::vector<Sequ
     findings.push_back(
         {Severity::kNote, sequence + (has_local ? "_local.txt" : "_global.txt"),
          std::string("has no ") + (has_local ? "global" : "local") + " list beside it"});
-  }
-  for (const std::string& data_set : data_sets) {
-    for (const auto& entry : fs::directory_iterator(root + "/" + data_set)) {
-      const std::string name = entry.path().filename().string();
-      if (!entry.is_directory() || used.count(name) > 0) continue;
-      findings.push_back({Severity::kNote, entry.path().string(), "no problem file uses it"});
-    }
   }
   return findings;
 }
@@ -150,14 +184,19 @@ void checkFile(const SequenceFiles& files, const CheckOptions& options, FolderCa
 }  // namespace
 
 bool runCheckTool(const CheckOptions& options, std::ostream& out) {
-  const std::vector<SequenceFiles> wanted = findWanted(options);
+  const Contents wanted = selectWanted(options);
   Report report(out);
   const bool is_all = options.sequences.empty() ||
                       std::count(options.sequences.begin(), options.sequences.end(), "all") > 0;
-  if (is_all) report.add(checkLayout(options.root, wanted));
+  if (is_all) report.add(checkLists(options.root, wanted.files));
   FolderCache folders(report, options.threads);
-  for (const SequenceFiles& files : wanted) checkFile(files, options, folders, report);
-  report.printSummary(wanted.size(), folders.clouds());
+  for (const SequenceFiles& files : wanted.files) checkFile(files, options, folders, report);
+  for (const auto& [data_set, sequence] : wanted.bare) {
+    const std::string folder = options.root + "/" + data_set + "/" + sequence;
+    report.add({{Severity::kNote, folder, "no problem file uses it"}});
+    if (hasClouds(folder)) folders.summaries(folder);
+  }
+  report.printSummary(wanted.files.size(), folders.clouds());
   return report.count(Severity::kError) == 0 &&
          (!options.strict || report.count(Severity::kWarning) == 0);
 }

@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <utility>
 
 #include "common/process.hpp"
 #include "conversion/converters.hpp"
+#include "conversion/own_log.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/dataset.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
+#include "preparation/own_parameters.hpp"
 #include "preparation/preparation_tools.hpp"
 
 namespace pcrb_tools {
@@ -57,9 +60,25 @@ bool isLeftAlone(const std::string& file, std::ostream& out) {
 /// A preparation under way.
 class Preparation {
  public:
-  Preparation(const PrepareOptions& options, std::vector<SequenceLog> logs, std::ostream& out)
-      : options_(options), logs_(std::move(logs)), out_(out) {}
+  using Convert = std::function<ConversionReport(const SequenceLog&)>;
 
+  /// @param convert  of a log of one's own; empty: the published data sets' converters
+  Preparation(const PrepareOptions& options, std::vector<SequenceLog> logs, std::ostream& out,
+              Convert convert = nullptr)
+      : options_(options), logs_(std::move(logs)), out_(out), convert_own_(std::move(convert)) {}
+
+  /// Whether all stages up to the last that is wanted found nothing wrong.
+  bool runAll() {
+    for (int i = 0; i <= static_cast<int>(options_.last); ++i) {
+      const auto stage = static_cast<PrepareStage>(i);
+      out_ << "== stage " << i + 1 << " of " << static_cast<int>(options_.last) + 1 << ": "
+           << toString(stage) << std::endl;
+      if (!run(stage)) return false;
+    }
+    return true;
+  }
+
+ private:
   /// Whether nothing is wrong with what a stage made.
   bool run(PrepareStage stage) {
     if (stage == PrepareStage::kConvert) convert();
@@ -69,7 +88,6 @@ class Preparation {
     return stage != PrepareStage::kCheck || check();
   }
 
- private:
   std::string folder(const std::string& data_set, const std::string& sequence) const {
     return (fs::path(options_.root) / data_set / sequence).string();
   }
@@ -105,6 +123,7 @@ class Preparation {
   }
 
   ConversionReport convert(const SequenceLog& log) const {
+    if (convert_own_) return convert_own_(log);
     try {
       return convertLog(log, options_);
     } catch (const pcrb::InvalidFile& error) {
@@ -116,16 +135,29 @@ class Preparation {
   }
 
   void buildMap() {
+    if (convert_own_) {
+      buildOwnMap(logs_.front());
+      return;
+    }
     if (!has(kMapTarget) || isLeftAlone(mapFile(), out_)) return;
     if (!has(kMapSource)) {
       out_ << "no map is built: it needs the log of " << kMapSource << std::endl;
       return;
     }
+    buildMap(folder(kMapDataSet, kMapSource), mapFile());
+  }
+
+  void buildMap(const std::string& clouds, const std::string& output) const {
     MapOptions map;
-    map.folder = folder(kMapDataSet, kMapSource);
-    map.output = mapFile();
+    map.folder = clouds;
+    map.output = output;
     map.threads = options_.threads;
     runMapTool(map);
+  }
+
+  void buildOwnMap(const SequenceLog& log) {
+    const std::string output = folder(log) + "_map.pcd";
+    if (!isLeftAlone(output, out_)) buildMap(folder(log), output);
   }
 
   void computeOverlaps() {
@@ -195,6 +227,7 @@ class Preparation {
   const PrepareOptions& options_;
   std::vector<SequenceLog> logs_;
   std::ostream& out_;
+  Convert convert_own_;
 };
 
 bool isWanted(const std::string& wanted, const SequenceLog& log) {
@@ -229,14 +262,19 @@ const char* toString(PrepareStage stage) {
 
 bool prepareDataset(const PrepareOptions& options, std::ostream& out) {
   const Interruption interruption;
-  Preparation preparation(options, selectLogs(options), out);
-  for (int i = 0; i <= static_cast<int>(options.last); ++i) {
-    const auto stage = static_cast<PrepareStage>(i);
-    out << "== stage " << i + 1 << " of " << static_cast<int>(options.last) + 1 << ": "
-        << toString(stage) << std::endl;
-    if (!preparation.run(stage)) return false;
-  }
-  return true;
+  return Preparation(options, selectLogs(options), out).runAll();
+}
+
+bool prepareOwn(const OwnRequest& request, const DatasetParameters& parameters,
+                const PrepareOptions& options, std::ostream& out) {
+  const Interruption interruption;
+  const auto convert = [&](const SequenceLog&) {
+    ConversionReport report = convertOwn(request);
+    settleParameters(request, parameters, out);
+    return report;
+  };
+  const SequenceLog log{request.data_set, sequenceOf(request), request.inputs};
+  return Preparation(options, {log}, out, convert).runAll();
 }
 
 }  // namespace pcrb_tools

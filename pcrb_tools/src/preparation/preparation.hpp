@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "common/sequence_paths.hpp"
+#include "conversion/own_request.hpp"
 #include "pcrb_core/problem/dataset.hpp"
 
 namespace pcrb_tools {
@@ -46,5 +48,23 @@ struct PrepareOptions {
 /// @return  whether the check found no error.
 /// @throws pcrb::Error  when a stage fails; what is complete stays.
 bool prepareDataset(const PrepareOptions& options, std::ostream& out);
+
+/// What the parameters of a new data set are written from; unset ones are left to the defaults.
+struct DatasetParameters {
+  std::optional<double> overlap_distance;  ///< m
+  std::optional<double> voxel_leaf;        ///< m
+  std::string sensor;
+};
+
+/// Prepares a sequence of a log of one's own: converts it, writes `dataset.yaml` where there is
+/// none, and goes through the stages of prepareDataset(); the map, `<sequence>_map.pcd` beside the
+/// folder, is made of the sequence's own clouds, for whoever wants one.
+///
+/// @param options  logs and sequences are not used
+/// @return  whether the check found no error.
+/// @throws pcrb::Error  when a stage fails; what is complete stays. InvalidParameter for parameters
+///                      that contradict a dataset.yaml which is there.
+bool prepareOwn(const OwnRequest& request, const DatasetParameters& parameters,
+                const PrepareOptions& options, std::ostream& out);
 
 }  // namespace pcrb_tools

@@ -70,6 +70,24 @@ struct SamplingOptions {
 /// @throws pcrb::Error  if clouds, matrix, parameters or outputs are not as they should be.
 void runSamplingTool(const SamplingOptions& options);
 
+/// What `import_protocol` is asked for.
+struct ProtocolOptions {
+  std::string protocol;  ///< `<sequence>_protocol.csv`
+  std::string folder;    ///< `<root>/<data set>/<sequence>`, clouds with VIEWPOINT
+  std::string output;    ///< problem file
+  int threads = 1;
+  bool force = false;  ///< replace an output that somebody else made
+};
+
+/// Makes a problem file of the original ETH protocol: reading becomes source, reference target, and
+/// the perturbation is what puts the source, in ground-truth pose, where the protocol begins:
+/// P = T_world_reference · T_initial · T_world_reading^-1 for scans in their own frames, T_initial
+/// for those in the world's. Overlaps are computed by the data set's distance. Identical problems
+/// are taken once.
+///
+/// @throws pcrb::Error  if the protocol is malformed, a cloud is not there or has no VIEWPOINT.
+void runProtocolImport(const ProtocolOptions& options, std::ostream& out);
+
 /// What `check_dataset` is asked for.
 struct CheckOptions {
   std::string root;                    ///< folder of data sets in the common layout
@@ -79,12 +97,13 @@ struct CheckOptions {
   int threads = 1;
 };
 
-/// Checks data sets in the common layout and prints one line per finding, `error: file: what`, and
+/// Checks data sets in the common layout, folders of clouds without problem files included, and
+/// prints one line per finding, `error: file: what`, and
 /// a last line with the counts.
 ///
 /// @return  whether no error was found (with `strict`, nor a warning).
-/// @throws pcrb::Error  if the root is no folder, holds no problem file, or a wanted sequence is
-///                      not there.
+/// @throws pcrb::Error  if the root is no folder, holds neither problem files nor clouds, or a
+///                      wanted sequence is not there.
 bool runCheckTool(const CheckOptions& options, std::ostream& out);
 
 }  // namespace pcrb_tools

@@ -67,31 +67,12 @@ std::vector<RecordedPose> readPoseTable(const std::string& path) {
     pcrb::splitAtBlanks(line, fields);
     if (fields.empty() || fields[0].front() == '#') continue;
     if (fields.size() != 13 && fields.size() != 8) {
-      reader.fail(std::to_string(fields.size()) + " words", kExpected);
+      reader.fail(std::to_string(fields.size()) + " words in " + pcrb::inQuotes(line), kExpected);
     }
     poses.push_back(parseRow(reader, fields));
   }
   if (poses.empty()) throw pcrb::InvalidFile(path, 0, "no pose", kExpected);
   return poses;
-}
-
-pcrb::Trajectory toTrajectory(const std::vector<RecordedPose>& poses, const std::string& path) {
-  std::vector<pcrb::StampedPose> stamped;
-  for (const RecordedPose& pose : poses) {
-    const auto stamp = pose.label.empty() ? pose.stamp : pcrb::parseTimestamp(pose.label);
-    if (!stamp) {
-      throw pcrb::InvalidFile(pose.place, 0, "`" + pose.label + "`", "a timestamp of a trajectory");
-    }
-    if (!pose.reply.defect.empty()) throw pcrb::InvalidFile(pose.place, pose.reply.defect);
-    try {
-      const pcrb::Submission& submission = pose.reply.submission;
-      stamped.push_back({*stamp, pcrb::makeTransform(submission.position, submission.orientation)});
-    } catch (const pcrb::InvalidProblem& error) {
-      throw pcrb::InvalidFile(pose.place, error.what());
-    }
-  }
-  if (stamped.empty()) throw pcrb::InvalidFile(path, 0, "no pose", "a trajectory");
-  return pcrb::Trajectory(std::move(stamped));
 }
 
 }  // namespace pcrb_tools

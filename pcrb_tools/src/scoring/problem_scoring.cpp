@@ -10,6 +10,7 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/run/offline_run.hpp"
+#include "scoring/quaternion_order.hpp"
 #include "scoring/recorded_poses.hpp"
 #include "scoring/scoring_tool.hpp"
 
@@ -122,6 +123,20 @@ pcrb::OfflineRunOptions makeRunOptions(const ProblemScoringOptions& options,
   return run;
 }
 
+/// Of replies that are quaternions, held against the perturbations that they should undo.
+std::string orderHintOf(const Replies& replies, const std::string& problem_file) {
+  std::vector<ReadRotation> rotations;
+  for (const pcrb::Problem& problem : pcrb::readProblemFile(problem_file)) {
+    const auto reply = replies.find(problem.id);
+    if (reply == replies.end() || !reply->second.defect.empty()) continue;
+    const Eigen::Quaterniond& q = reply->second.submission.orientation;
+    if (!(q.norm() > 0.5)) continue;
+    rotations.push_back(
+        {pcrb::nearestRotation(problem.perturbation.leftCols<3>()).transpose(), q.normalized()});
+  }
+  return orderHint(rotations);
+}
+
 }  // namespace
 
 void runProblemScoring(const ProblemScoringOptions& options, std::ostream& out) {
@@ -136,7 +151,10 @@ void runProblemScoring(const ProblemScoringOptions& options, std::ostream& out) 
   Progress progress(path.files.sequence, "problems", run.size());
   const std::string summary = run.score(replies, [&progress] { progress.add(); });
   progress.finish();
-  out << summary << std::flush;
+  out << summary;
+  const std::string hint = key ? std::string() : orderHintOf(replies, path.files.problem_file);
+  if (!hint.empty()) out << "note: " << hint << '\n';
+  out << std::flush;
 }
 
 }  // namespace pcrb_tools

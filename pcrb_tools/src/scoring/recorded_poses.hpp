@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pcrb_core/datasets/trajectory.hpp"
+#include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/run/offline_run.hpp"
 
 namespace pcrb_tools {
@@ -24,8 +24,7 @@ struct RecordedPose {
 /// @throws pcrb::InvalidFile  with line, for a row of another form.
 std::vector<RecordedPose> readPoseTable(const std::string& path);
 
-/// Reads the poses of a topic of a bag: geometry_msgs PoseStamped, PoseWithCovarianceStamped,
-/// TransformStamped, or nav_msgs Odometry.
+/// Reads the poses of a topic of a bag, of one of kPoseTypes.
 ///
 /// @param frame  the map's; a leading slash does not count.
 /// @throws pcrb::InvalidFile  if the bag has no such topic, or the topic another type, or a pose is
@@ -36,9 +35,5 @@ std::vector<RecordedPose> readBagPoses(const std::string& path, const std::strin
 /// readBagPoses() for a bag, by its name's end, else readPoseTable().
 std::vector<RecordedPose> readPoses(const std::string& path, const std::string& topic,
                                     const std::string& frame);
-
-/// The poses in time, for trackers.
-/// @throws pcrb::InvalidFile  for a label that is no timestamp, or a pose with a defect.
-pcrb::Trajectory toTrajectory(const std::vector<RecordedPose>& poses, const std::string& path);
 
 }  // namespace pcrb_tools

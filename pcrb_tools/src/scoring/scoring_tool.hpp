@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "pcrb_core/run/offline_run.hpp"
 #include "pcrb_core/transform.hpp"
@@ -46,12 +47,16 @@ struct TrackingOptions {
   double max_lost = 1.0;         ///< fraction of the scans that may be without a pose
   bool align = false;            ///< APE after a rigid alignment
   pcrb::Transform T_body_sensor = pcrb::Transform::Identity();  ///< poses are those of the body
+  std::vector<std::string> tf;  ///< of a bag: world's and body's frames, in place of a topic
+  double time_offset = 0.0;     ///< s, added to the stamps of the poses
+  double largest_offset = 0.0;  ///< s: further offset to estimate, at most so large; 0 = none
 };
 
-/// Scores a trajectory scan by scan: the benchmark's error, APE, RPE over scans and metres, KITTI's
-/// drift. A scan without a pose is lost, and costs: it counts with the last pose before it, or with
-/// that of the first scan. Writes scans.csv, summary.txt, truth.tum, estimate.tum and map.csv (what
-/// the scans show, from above), and prints the summary.
+/// Scores a trajectory, a text in any pcrb::PoseFormat or of a bag, scan by scan: the benchmark's
+/// error, APE, RPE over scans and metres, KITTI's drift. A scan without a pose is lost, and costs:
+/// it counts with the last pose before it, or with that of the first scan. Writes scans.csv,
+/// summary.txt, truth.tum, estimate.tum and map.csv (what the scans show, from above), and prints
+/// the summary.
 ///
 /// @return  whether no more scans were lost than may be.
 /// @throws pcrb::Error  for files that are not as they should be, or if no scan has a pose.

@@ -12,7 +12,9 @@
 #include "common/process.hpp"
 #include "common/progress.hpp"
 #include "common/sequence_paths.hpp"
+#include "pcrb_core/datasets/cloud_file.hpp"
 #include "pcrb_core/datasets/stamp.hpp"
+#include "pcrb_core/datasets/stamp_mismatch.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/evaluation/trajectory_error.hpp"
@@ -21,8 +23,9 @@
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/transform.hpp"
 #include "pcrb_server/playback/scene.hpp"
-#include "scoring/recorded_poses.hpp"
+#include "scoring/quaternion_order.hpp"
 #include "scoring/scoring_tool.hpp"
+#include "scoring/tracked_poses.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -125,16 +128,24 @@ std::string formatEstimateTum(const std::vector<TrackedScan>& scans) {
   return text;
 }
 
+void requireMatches(const std::vector<TrackedScan>& scans, const pcrb::Trajectory& trajectory) {
+  std::vector<pcrb::Stamp> stamps;
+  for (const TrackedScan& scan : scans) {
+    if (scan.T_map_sensor) return;
+    stamps.push_back(scan.stamp);
+  }
+  throw pcrb::InvalidParameter("found a pose for none of " + std::to_string(scans.size()) +
+                               " scans (" + pcrb::describeMismatch(stamps, trajectory.stamps()) +
+                               "), expected some with timestamps like the scans' "
+                               "(--max-difference, --time-offset)");
+}
+
 /// A table: the benchmark's error, APE and RPE with evo's statistics.
 std::string summarizeTracking(const std::vector<TrackedScan>& scans,
                               const TrackingOptions& options) {
   const std::size_t delta = options.delta;
   const bool align = options.align;
   const Matched matched = match(scans);
-  if (matched.estimate.empty()) {
-    throw pcrb::InvalidParameter("found a pose for none of " + std::to_string(scans.size()) +
-                                 " scans, expected some with timestamps like the scans'");
-  }
   const auto absolute = pcrb::absolutePoseErrors(
       matched.truth,
       align ? pcrb::alignToReference(matched.truth, matched.estimate) : matched.estimate);
@@ -171,23 +182,11 @@ std::string summarizeTracking(const std::vector<TrackedScan>& scans,
   return out.str();
 }
 
-/// `1311878220.377686160.pcd` or `urban05_1524185042111111111.pcd`.
-std::optional<pcrb::Stamp> stampOfName(const std::string& name) {
-  const std::string stem = fs::path(name).stem().string();
-  if (const auto stamp =
-          stem.find('.') != std::string::npos ? pcrb::parseStamp(stem) : std::nullopt) {
-    return stamp;
-  }
-  const std::string digits = stem.substr(stem.rfind('_') + 1);
-  const auto nanoseconds = pcrb::parseInt(digits);
-  return digits.size() == 19 ? nanoseconds : std::nullopt;
-}
-
 pcrb::ScanList listOf(const TrackingOptions& options) {
   if (!options.scans.empty()) return pcrb::readScanList(options.scans);
   pcrb::ScanList list;
   for (const std::string& name : openSequenceFolder(options.folder).clouds) {
-    const auto stamp = stampOfName(name);
+    const auto stamp = pcrb::stampOfFileName(name);
     if (!stamp) {
       throw pcrb::InvalidFile(options.folder + "/" + name, 0, "a name without a timestamp",
                               "--scans, the list that sequence_to_bag and replay write");
@@ -247,25 +246,61 @@ class TopView {
   std::set<std::pair<double, double>> squares_;
 };
 
-TrackedScan track(const TrackingOptions& options, const pcrb::ScanList& list,
-                  const pcrb::Trajectory& trajectory, pcrb::Stamp stamp, const std::string& name,
-                  std::optional<pcrb::Transform>& last, TopView& view) {
-  const pcrb::DatasetCloud cloud = readScan(options, name);
+/// The scans without poses, and their clouds' files.
+std::vector<TrackedScan> readTruth(const TrackingOptions& options, const pcrb::ScanList& list) {
+  std::vector<TrackedScan> scans;
+  for (const auto& [stamp, name] : list.scans) {
+    TrackedScan scan;
+    scan.name = name;
+    scan.stamp = stamp;
+    if (options.largest_offset > 0.0) {
+      scan.truth = readScan(options, name).viewpoint;
+      scan.truth.translation() -= list.local_origin;
+    }
+    scans.push_back(std::move(scan));
+  }
+  return scans;
+}
+
+void track(const TrackingOptions& options, const pcrb::ScanList& list,
+           const pcrb::Trajectory& trajectory, TrackedScan& scan,
+           std::optional<pcrb::Transform>& last, TopView& view) {
+  const pcrb::DatasetCloud cloud = readScan(options, scan.name);
   view.add(cloud, list.local_origin);
-  TrackedScan scan;
-  scan.name = name;
-  scan.stamp = stamp;
   scan.truth = cloud.viewpoint;
   scan.truth.translation() -= list.local_origin;
-  const pcrb::StampedPose& nearest = trajectory.nearest(stamp);
-  if (std::abs(nearest.stamp - stamp) <= pcrb::toStamp(options.max_difference)) {
+  const pcrb::StampedPose& nearest = trajectory.nearest(scan.stamp);
+  if (std::abs(nearest.stamp - scan.stamp) <= pcrb::toStamp(options.max_difference)) {
     scan.T_map_sensor = nearest.T_world_body * options.T_body_sensor;
     scan.error = errorOf(cloud, list, *scan.T_map_sensor);
     last = scan.T_map_sensor;
   }
   if (!last) last = scan.truth;  // a tracker gets the first pose
   scan.held_error = scan.error ? scan.error->error : errorOf(cloud, list, *last).error;
-  return scan;
+}
+
+/// The trajectory in the scans' time.
+pcrb::Trajectory inScansTime(const TrackingOptions& options, const std::vector<TrackedScan>& scans,
+                             pcrb::Trajectory trajectory, std::vector<std::string>& notes) {
+  double offset = options.time_offset;
+  if (options.largest_offset > 0.0) {
+    std::vector<pcrb::StampedPose> truth;
+    for (const TrackedScan& scan : scans) truth.push_back({scan.stamp, scan.truth});
+    offset += estimateTimeOffset(truth, shifted(trajectory, offset), options.T_body_sensor,
+                                 options.largest_offset);
+    notes.push_back("time offset estimated: " + pcrb::formatFixed(offset, 6) +
+                    " s added to the poses' timestamps");
+  }
+  return offset == 0.0 ? trajectory : shifted(trajectory, offset);
+}
+
+std::vector<ReadRotation> rotationsOf(const Matched& matched) {
+  std::vector<ReadRotation> rotations;
+  for (std::size_t i = 0; i != matched.truth.size(); ++i) {
+    rotations.push_back(
+        {matched.truth[i].linear(), Eigen::Quaterniond(matched.estimate[i].linear())});
+  }
+  return rotations;
 }
 
 }  // namespace
@@ -273,21 +308,28 @@ TrackedScan track(const TrackingOptions& options, const pcrb::ScanList& list,
 bool runTrackingScoring(const TrackingOptions& options, std::ostream& out) {
   const Interruption interruption;
   const pcrb::ScanList list = listOf(options);
-  const pcrb::Trajectory trajectory =
-      toTrajectory(readPoses(options.poses.path, options.poses.topic, options.poses.map_frame),
-                   options.poses.path);
-  std::vector<TrackedScan> scans;
+  std::vector<std::string> notes;
+  pcrb::Trajectory read = readTrackedPoses(options, list, notes);
+  std::vector<TrackedScan> scans = readTruth(options, list);
+  const pcrb::Trajectory trajectory = inScansTime(options, scans, std::move(read), notes);
   std::optional<pcrb::Transform> last;
   TopView view;
   Progress progress(fs::path(options.folder).filename().string(), "scans", list.scans.size());
-  for (const auto& [stamp, name] : list.scans) {
+  for (TrackedScan& scan : scans) {
     Interruption::check();
-    scans.push_back(track(options, list, trajectory, stamp, name, last, view));
+    track(options, list, trajectory, scan, last, view);
     progress.add();
   }
   progress.finish();
-  const std::string summary = summarizeTracking(scans, options);
-  fs::create_directories(options.output);
+  requireMatches(scans, trajectory);
+  const std::string hint = orderHint(rotationsOf(match(scans)));
+  if (!hint.empty()) notes.push_back(hint);
+  std::string summary = summarizeTracking(scans, options);
+  for (const std::string& note : notes)
+    summary += "note: " + note +
+               "
+               ";
+               fs::create_directories(options.output);
   pcrb::writeFileAtomically(options.output + "/scans.csv", formatScansCsv(scans));
   pcrb::writeFileAtomically(options.output + "/truth.tum", formatTruthTum(scans));
   pcrb::writeFileAtomically(options.output + "/estimate.tum", formatEstimateTum(scans));

@@ -1,6 +1,7 @@
 #include "archives/archive_reader.hpp"
 
 #include <gtest/gtest.h>
+#include <locale.h>
 
 #include <filesystem>
 
@@ -23,6 +24,23 @@ NamedFiles filesOf(const std::string& path) {
     files.emplace_back(reader.name(), bytes);
   }
   return files;
+}
+
+TEST(ArchiveReader, TakesNamesThatTheLocaleCannotShow) {
+  const pcrb_test::TemporaryFolder folder;
+  const NamedFiles files{{"a.csv", "1"},
+                         {"\xc3\x9c"
+                          "bersicht.csv",
+                          "2"},
+                         {"b.csv", "3"}};
+  for (const char* name : {"a.zip", "a.tar.gz"}) {
+    const locale_t utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    const locale_t former = uselocale(utf8);
+    pcrb_test::writeArchive(folder.file(name), files);
+    uselocale(former);
+    freelocale(utf8);
+    EXPECT_EQ(filesOf(folder.file(name)), files) << name;
+  }
 }
 
 class EitherArchive : public testing::TestWithParam<const char*> {

@@ -42,6 +42,23 @@ TEST(PlanetaryConversion, PointsAreMovedByThePoseAndDroppedLinesCounted) {
   EXPECT_LT((cloud.viewpoint.translation() - Eigen::Vector3d(10.5, -3, 0.25)).norm(), 1e-12);
 }
 
+TEST(PlanetaryConversion, AScanOfWhichLittleCanBeReadIsRefusedUnlessThatIsAllowed) {
+  const pcrb_test::TemporaryFolder folder;
+  std::string lines = "1 2 3\n";
+  for (int i = 0; i < 1000; ++i) lines += "no point\n";
+  auto files = scanFiles("box_met_052");
+  for (auto& [name, bytes] : files) {
+    if (name.find(".xyz") != std::string::npos) bytes = lines;
+  }
+  pcrb_test::writeFiles(folder.file("box_met"), files);
+  PlanetaryRequest request = requestFor(folder, folder.file("box_met"));
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertPlanetary(request),
+                    "found 1000 of 1001 lines that are no point, expected 'x y z' in all but 1 % "
+                    "(--max-malformed allows more)");
+  request.max_malformed = 1.0;
+  EXPECT_EQ(convertPlanetary(request).points.written(), 1u);
+}
+
 TEST(PlanetaryConversion, ReadsOneArchiveAScan) {
   const pcrb_test::TemporaryFolder folder;
   std::filesystem::create_directories(folder.file("p2at_met"));

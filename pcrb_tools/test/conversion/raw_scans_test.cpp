@@ -43,6 +43,22 @@ TEST(DepthPng, AHeaderThatClaimsAHugeImageIsRefused) {
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, decodeDepthPng(png, "a.png"), "a.png: no depth image: ");
 }
 
+TEST(DepthPng, AnImageThatUnfoldsToFarMoreThanItsBytesIsRefused) {
+  const std::vector<std::uint16_t> pixels(3000 * 3000 / 4 * 4, 1000);
+  const std::string bomb = pcrb_test::makePng(3000, 3000, pixels);
+  ASSERT_LT(bomb.size(), 60000u);
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, decodeDepthPng(bomb, "a.png"), "found 9000000 pixels in");
+  const std::string flat = pcrb_test::makePng(1024, 1024, std::vector<std::uint16_t>(1 << 20, 7));
+  EXPECT_EQ(decodeDepthPng(flat, "a.png").pixels.size(), std::size_t{1} << 20);
+}
+
+TEST(DepthPng, GammaChangesNoDepth) {
+  std::string png = pcrb_test::makePng(2, 1, {1000, 40000});
+  const std::string gamma("\0\0\0\4gAMA\0\0\xb1\x8f\x0b\xfc\x61\x05", 16);
+  png.insert(33, gamma);  // behind the header
+  EXPECT_EQ(decodeDepthPng(png, "a.png").pixels, (std::vector<std::uint16_t>{1000, 40000}));
+}
+
 TEST(DepthPng, RealImagesHaveDepthsOfARoom) {
   PCRB_REQUIRE_SHARED_DATA();
   for (const char* name : {"1_depth.png", "2_depth.png"}) {

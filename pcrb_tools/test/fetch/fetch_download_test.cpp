@@ -62,6 +62,11 @@ class DownloadTest : public ::testing::Test {
   std::function<void(const std::string&)> check_;
 };
 
+TEST_F(DownloadTest, AnEndWithoutALengthIsBelievedWhenItComesTwice) {
+  get(servers_.http("/silent/a.bin"));
+  EXPECT_EQ(readFile(destination_), content_);
+}
+
 TEST_F(DownloadTest, GetsAFileByHttpAndFtpAndLeavesNoPart) {
   for (const std::string& url : {servers_.http("/files/a.bin"), servers_.http("/moved/a.bin"),
                                  servers_.ftp("/files/a.bin")}) {

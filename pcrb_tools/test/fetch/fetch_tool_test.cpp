@@ -1,6 +1,7 @@
 #include "fetch/fetch_tool.hpp"
 
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
 
 #include <filesystem>
 #include <set>
@@ -275,7 +276,7 @@ TEST_F(FetchToolTest, ALogThatLacksAFileIsNotConverted) {
             servers_.http(poses) + "\"}\n");
   };
   options_.set = SourceSet::kOriginal;
-  writeFile(folder_.file("s.bag"), "#ROSBAG V2.0\nrest");
+  rosbag::Bag(folder_.file("s.bag"), rosbag::bagmode::Write).close();
   writeFile(folder_.file("s.txt"), "# poses\n");
   set("/page/s.txt");
   EXPECT_FALSE(fetch());
@@ -308,7 +309,45 @@ TEST_F(FetchToolTest, SomethingElseIsNoBagAndATruncatedArchiveIsNoArchive) {
                 servers_.http("/files/plain_local.txt") + "\"}\n");
   EXPECT_FALSE(fetch());
   EXPECT_TRUE(says("expected a bag of ROS 1")) << output_;
+  rosbag::Bag(folder_.file("s.bag"), rosbag::bagmode::Write).close();
+  writeFile(folder_.file("cut.bag"), readFile(folder_.file("s.bag")).substr(0, 4200));
+  writeFile(options_.sources,
+            "sources:\n  - {data_set: tum, sequence: s, set: original, kind: log, file: tum/s.bag, "
+            "url: \"" +
+                servers_.http("/files/cut.bag") + "\"}\n");
+  EXPECT_FALSE(fetch());
+  EXPECT_TRUE(says("of a bag that is cut or damaged")) << output_;
   EXPECT_EQ(pcrb_test::namesIn(folder_.file("logs/tum")), std::vector<std::string>{});
+}
+
+TEST_F(FetchToolTest, TriesThePlacesOfAFileInTurnAndNamesEachThatFails) {
+  writeFile(folder_.file("s.txt"), "# poses\n");
+  const auto set = [this](const std::string& last) {
+    writeFile(
+        options_.sources,
+        "sources:\n  - {data_set: tum, sequence: s, set: original, kind: log, file: tum/s.txt, "
+        "bytes: 1500000000,\n     url: \"" +
+            servers_.http("/files/gone.txt") + "\", mirrors: [{url: \"" +
+            servers_.http("/page/s.txt") + "\"}, {url: \"" + servers_.http(last) +
+            "\", bytes: 8}]}\n");
+  };
+  options_.set = SourceSet::kOriginal;
+  set("/files/none.txt");
+  EXPECT_FALSE(fetch());
+  EXPECT_TRUE(says("tum/s.txt: none of 3 places has it: ")) << output_;
+  for (const char* cause : {"gone.txt: the server answers with status 404", "found an HTML page",
+                            "none.txt: the server answers with status 404"}) {
+    EXPECT_TRUE(says(cause)) << cause << " in " << output_;
+  }
+  set("/files/s.txt");
+  options_.dry_run = true;
+  EXPECT_TRUE(fetch());
+  EXPECT_TRUE(says(", 1.50 GB")) << output_;
+  EXPECT_TRUE(says("known in all: 1.50 GB, 0.0 h at 10 MB/s")) << output_;
+  options_.dry_run = false;
+  EXPECT_TRUE(fetch()) << output_;
+  EXPECT_EQ(readFile(options_.logs + "/tum/s.txt"), "# poses\n");
+  EXPECT_TRUE(fetch()) << output_;
 }
 
 TEST_F(FetchToolTest, SaysHowToGetWhatCannotBeDownloaded) {

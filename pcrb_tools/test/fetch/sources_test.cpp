@@ -58,6 +58,10 @@ TEST(Sources, RejectsMistakesWithTheirLine) {
             "s.yaml:3: found both, expected either url or by_hand");
   EXPECT_EQ(error_of(with("kind: log", "kind: log, needs: d/t")),
             "s.yaml:3: found 'd/t', expected <data set>/<sequence> of this list");
+  EXPECT_EQ(error_of(with("kind: log", "kind: log, mirrors: [{bytes: 1}]")),
+            "s.yaml:3: found no url, expected one");
+  EXPECT_EQ(error_of(with("kind: log", "kind: log, mirrors: x")),
+            "s.yaml:3: found no list, expected a list of maps with a url");
   EXPECT_NE(error_of("[").find("expected YAML"), std::string::npos);
 }
 

@@ -95,6 +95,19 @@ TEST_F(CheckToolTest, NotesUnusedFoldersAndSingleLists) {
   EXPECT_TRUE(says("yard_local.txt: has no global list beside it")) << output_;
 }
 
+TEST_F(CheckToolTest, ChecksCloudsWithoutProblemFiles) {
+  for (const char* file : {"own/yard_local.txt", "own/yard_global.txt"}) {
+    fs::remove(folder_.file(file));
+  }
+  EXPECT_TRUE(check()) << output_;
+  EXPECT_TRUE(says("0 problem files, 5 clouds: 0 errors")) << output_;
+  EXPECT_TRUE(says("note: " + folder_.file("own/yard") + ": no problem file uses it")) << output_;
+  options_.sequences = {"yard"};
+  fs::resize_file(folder_.file("own/yard/scan3.pcd"), 200);
+  EXPECT_FALSE(check());
+  EXPECT_TRUE(says("error: " + folder_.file("own/yard/scan3.pcd:"))) << output_;
+}
+
 TEST_F(CheckToolTest, ReportsAMissingFolderOfClouds) {
   fs::remove_all(folder_.file("own/yard"));
   EXPECT_FALSE(check());

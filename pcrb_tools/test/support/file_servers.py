@@ -7,16 +7,19 @@ Prints the two ports and serves until its standard input is closed. Paths (http;
   /stuck/NAME     the connection breaks before the first byte, every time
   /flaky/NAME     status 503 twice, then the file
   /whole/NAME     the file, without ranges or ETag
+  /silent/NAME    half of the file without a length, then the connection ends; from then on all of it, without one
   /swap/NAME      half of the file, then the connection breaks; from then on NAME.new
   /shifted/NAME   the file, but to a range always another one
   /moved/NAME     redirection to /files/NAME
   /page/NAME      a page of HTML, said to be the file
   /drive?id=NAME  a page that asks for a confirmation, as Google Drive has it
   /quota?id=NAME  a page that says no
+  /dspace/…       the REST interface of a DSpace 7 repository: one item, `item`, with the folder's files, two a page
 """
 
 import hashlib
 import http.server
+import json
 import os
 import socketserver
 import sys
@@ -96,6 +99,13 @@ class Http(http.server.BaseHTTPRequestHandler):
         self.head(200, len(data))
         self.wfile.write(data[:limit])
 
+    def send_silent(self, name, _):
+        data = read(name)
+        self.send_response(200)
+        self.send_header("Connection", "close")
+        self.end_headers()
+        self.wfile.write(data[:len(data) // 2 if count("silent" + name) == 1 else None])
+
     def send_shifted(self, name, _):
         data = read(name)
         if "Range" not in self.headers:
@@ -135,6 +145,36 @@ class Http(http.server.BaseHTTPRequestHandler):
 
     def send_quota(self, _, __):
         self.send_html("<html><title>Quota exceeded</title></html>", Content_Type="text/html")
+
+
+    def send_json(self, value):
+        data = json.dumps(value).encode()
+        self.head(200, len(data), Content_Type="application/hal+json;charset=UTF-8")
+        self.wfile.write(data)
+
+    def send_dspace(self, name, query):
+        root = f"http://127.0.0.1:{self.server.server_address[1]}/dspace"
+        if name == "core/items/item/bundles":
+            bundles = [{"uuid": "small", "name": "THUMBNAIL", "type": "bundle"}, {"uuid": "files", "name": "ORIGINAL", "type": "bundle"}]
+            self.send_json({"_embedded": {"bundles": bundles}, "page": {"size": 20, "totalElements": 2, "totalPages": 1, "number": 0}})
+        elif name == "core/bundles/files/bitstreams":
+            self.send_bitstreams(root, int(query.get("page", 0)))
+        elif name.startswith("core/bitstreams/"):
+            self.send_part(read(name.split("/")[2]))
+        else:
+            self.head(404, 0)
+
+    def send_bitstreams(self, root, page):
+        names = sorted(name for name in os.listdir(FOLDER) if name.endswith(".zip"))
+        url = f"{root}/core/bundles/files/bitstreams"
+        streams = [{"uuid": name, "name": name, "type": "bitstream", "sizeBytes": len(read(name)), "sequenceId": 1,
+                    "checkSum": {"checkSumAlgorithm": "MD5", "value": hashlib.md5(read(name)).hexdigest()},
+                    "_links": {"content": {"href": f"{root}/core/bitstreams/{name}/content"}}} for name in names[2 * page:2 * page + 2]]
+        links = {"self": {"href": f"{url}?page={page}"}}
+        if 2 * page + 2 < len(names):
+            links["next"] = {"href": f"{url}?page={page + 1}"}
+        self.send_json({"_embedded": {"bitstreams": streams}, "_links": links,
+                        "page": {"size": 2, "totalElements": len(names), "totalPages": (len(names) + 1) // 2, "number": page}})
 
 
 class Ftp(socketserver.StreamRequestHandler):

@@ -44,6 +44,21 @@ SensorScan parseEthScan(std::string_view text, const std::string& name);
 ///                      part that is no rotation (1e-3), and scan numbers given twice.
 std::map<std::uint64_t, Transform> parseLeicaPoses(std::string_view text, const std::string& name);
 
+/// A row of the original protocol: a pair of scans and where the registration of the first to the
+/// second begins.
+struct EthProtocolRow {
+  EthScanName reading;
+  EthScanName reference;
+  Transform T_reference_reading = Transform::Identity();  ///< of the files' coordinates
+};
+
+/// Reads `<sequence>_protocol.csv` of the original evaluation: columns `reading` and `reference`,
+/// names of scan files, and the initial transform as `iT00` … `iT33` (or `T00` … `T33`) in any
+/// order, as libpointmatcher's lists of files have them. The nearest rotation is taken.
+///
+/// @throws InvalidFile  with line, what was found and what was expected.
+std::vector<EthProtocolRow> parseEthProtocol(std::string_view text, const std::string& name);
+
 /// One of the eight published sequences.
 struct EthSequence {
   std::string name;            ///< `apartment`

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "pcrb_core/point_cloud.hpp"
@@ -25,6 +26,8 @@ enum class OriginPoints { kKeep, kDrop };
 /// Points of one scan as the log has them.
 struct SensorScan {
   std::vector<Eigen::Vector3d> points;  ///< m, finite; in the sensor's frame unless said otherwise
+  std::vector<double> times;  ///< s of each point, as the log has them; empty where it has none
+  Transform viewpoint = Transform::Identity();  ///< of a PCD; identity counts as unknown
   PointCounts counts;
 
   /// Counts a point and keeps it if it is one.
@@ -39,6 +42,12 @@ struct SensorScan {
     }
   }
 };
+
+/// Seconds of a unit of a field that holds the time of each point, as drivers call it: `time`, `t`,
+/// `timestamp`, `time_stamp`, `offset_time`, `time_offset`, `point_time`: floats are seconds,
+/// integers nanoseconds.
+/// @return  0 for other names
+double pointTimeScale(std::string_view field, bool is_float);
 
 /// Moves points into the data set's frame, in double: p_dataset = T_dataset_sensor · p_sensor, with
 /// the rotation as it is given.

@@ -52,6 +52,7 @@ class Trajectory {
 
   std::size_t size() const { return poses_.size(); }
   std::size_t duplicates() const { return duplicates_; }  ///< poses left out by the constructor
+  std::vector<Stamp> stamps() const;                      ///< ascending
   Stamp firstStamp() const { return poses_.front().stamp; }
   Stamp lastStamp() const { return poses_.back().stamp; }
 

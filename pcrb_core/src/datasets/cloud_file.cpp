@@ -1,0 +1,94 @@
+#include "pcrb_core/datasets/cloud_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "datasets/records.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/foreign_data.hpp"
+#include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/pcd.hpp"
+
+namespace pcrb {
+namespace {
+
+/// The part behind the last point, in lower case.
+std::string endingOf(std::string_view file_name) {
+  const std::size_t point = file_name.rfind('.');
+  std::string ending(point == std::string_view::npos ? "" : file_name.substr(point));
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+SensorScan scanOfPcd(std::string_view bytes, OriginPoints origin, const std::string& name) {
+  const DatasetCloud cloud = parsePcd(bytes.data(), bytes.data() + bytes.size(), name);
+  SensorScan scan;
+  scan.viewpoint = cloud.viewpoint;
+  scan.points.reserve(cloud.points.size());
+  for (const Eigen::Vector3d& point : cloud.points) scan.add(point, origin);
+  scan.counts.read += cloud.dropped_non_finite;
+  scan.counts.non_finite += cloud.dropped_non_finite;
+  return scan;
+}
+
+/// Records of another length make numbers that no lidar gives.
+void requirePossible(const SensorScan& scan, std::size_t fields, const std::string& name) {
+  constexpr double kReach = 1000.0;  // m
+  constexpr std::size_t kFew = 10;
+  const auto impossible = static_cast<std::size_t>(std::count_if(
+      scan.points.begin(), scan.points.end(),
+      [](const Eigen::Vector3d& point) { return point.lpNorm<Eigen::Infinity>() > kReach; }));
+  const std::size_t wrong = impossible + scan.counts.non_finite;
+  if (impossible == 0 || wrong <= std::max(kFew, scan.counts.read / 100)) return;
+  throw InvalidFile(name, 0,
+                    std::to_string(wrong) + " of " + std::to_string(scan.counts.read) +
+                        " records with a coordinate beyond 1 km or that is not finite",
+                    "records of " + std::to_string(fields) +
+                        " float32 numbers (x y z first): are these longer or shorter? "
+                        "(--bin-fields)");
+}
+
+SensorScan parseBin(std::string_view bytes, const CloudFileOptions& options,
+                    const std::string& name) {
+  requireData(bytes, name);
+  RecordLayout layout;
+  layout.length = 4 * options.bin_fields;
+  layout.y.offset = 4;
+  layout.z.offset = 8;
+  if (bytes.empty() || bytes.size() % layout.length != 0) {
+    throw InvalidFile(name, 0, std::to_string(bytes.size()) + " bytes",
+                      "records of " + std::to_string(layout.length) + " bytes, " +
+                          std::to_string(options.bin_fields) + " float32 numbers (--bin-fields)");
+  }
+  SensorScan scan = readRecords(bytes, bytes.size() / layout.length, layout, options.origin, name);
+  requirePossible(scan, options.bin_fields, name);
+  return scan;
+}
+
+}  // namespace
+
+bool isCloudFileName(std::string_view file_name) {
+  constexpr std::array<std::string_view, 4> kEndings = {".pcd", ".ply", ".bin", ".npy"};
+  return std::count(kEndings.begin(), kEndings.end(), endingOf(file_name)) > 0;
+}
+
+std::optional<Stamp> stampOfFileName(std::string_view file_name) {
+  constexpr std::size_t kNanosecondDigits = 19;
+  const std::string_view stem = file_name.substr(0, file_name.rfind('.'));
+  const std::string_view word = stem.substr(stem.rfind('_') + 1);
+  if (word.find('.') != std::string_view::npos) return parseStamp(word);
+  return word.size() == kNanosecondDigits ? parseInt(word) : std::nullopt;
+}
+
+SensorScan parseCloudFile(std::string_view bytes, const std::string& name,
+                          const CloudFileOptions& options) {
+  const std::string ending = endingOf(name);
+  if (ending == ".ply") return parsePly(bytes, options.origin, name);
+  if (ending == ".npy") return parseNpy(bytes, options.origin, name);
+  if (ending == ".bin") return parseBin(bytes, options, name);
+  return scanOfPcd(bytes, options.origin, name);
+}
+
+}  // namespace pcrb

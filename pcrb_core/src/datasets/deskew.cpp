@@ -1,0 +1,36 @@
+#include "pcrb_core/datasets/deskew.hpp"
+
+#include <cmath>
+#include <map>
+
+namespace pcrb {
+
+Stamp pointStamp(Stamp scan, double time) {
+  constexpr double kSince1970 = 1e8;  // s: no turn of a sensor takes three years
+  const Stamp ns = std::llround(time * static_cast<double>(kSecond));
+  return std::abs(time) > kSince1970 ? ns : scan + ns;
+}
+
+PoseStatus placeMovingScan(const SensorScan& scan, Stamp stamp, const PoseAt& pose_at,
+                           DatasetCloud& cloud) {
+  const PoseLookup at_stamp = pose_at(stamp);
+  if (at_stamp.status != PoseStatus::kFound) return at_stamp.status;
+  std::map<Stamp, Transform> poses;  // many points share a time
+  cloud = {};
+  cloud.points.reserve(scan.points.size());
+  for (std::size_t i = 0; i != scan.points.size(); ++i) {
+    const Stamp time = pointStamp(stamp, scan.times[i]);
+    auto pose = poses.find(time);
+    if (pose == poses.end()) {
+      const PoseLookup found = pose_at(time);
+      if (found.status != PoseStatus::kFound) return found.status;
+      pose = poses.emplace(time, found.T_world_body).first;
+    }
+    cloud.points.emplace_back(pose->second * scan.points[i]);
+  }
+  cloud.viewpoint = asViewpoint(at_stamp.T_world_body);
+  cloud.dropped_non_finite = scan.counts.non_finite;
+  return PoseStatus::kFound;
+}
+
+}  // namespace pcrb

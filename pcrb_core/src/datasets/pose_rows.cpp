@@ -1,0 +1,67 @@
+#include "datasets/pose_rows.hpp"
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "datasets/log_rows.hpp"
+#include "pcrb_core/io/number.hpp"
+
+namespace pcrb {
+
+Transform requireQuaternionPose(const LineReader& reader, const Eigen::Vector3d& translation,
+                                const Eigen::Quaterniond& rotation) {
+  // Four decimals leave a norm within 2e-4 of 1; anything far from it is no rotation.
+  if (std::abs(rotation.norm() - 1.0) > 0.01) {
+    reader.fail("a quaternion of norm " + formatShortest(rotation.norm()), "1");
+  }
+  return makeTransform(translation, rotation);
+}
+
+Transform requireMatrixPose(const LineReader& reader, const std::vector<double>& numbers) {
+  Transform T = Transform::Identity();
+  if (numbers.size() == 16) {
+    T = requireLogPose4x4(reader, numbers.data());
+  } else {
+    using RowMajor = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+    T = requireLogPose(reader, Eigen::Map<const RowMajor>(numbers.data()));
+  }
+  T.linear() = nearestRotation(T.linear());
+  return T;
+}
+
+Stamp unitBySize(std::string_view timestamp, std::vector<std::string>& notes) {
+  struct Unit {
+    double least;  ///< timestamp of 1973 in the unit
+    Stamp ns;
+    const char* name;
+  };
+  constexpr Unit kUnits[] = {
+      {1e17, 1, "nanoseconds"}, {1e14, 1'000, "microseconds"}, {1e11, 1'000'000, "milliseconds"}};
+  const auto value = parseDouble(timestamp);
+  for (const Unit& unit : kUnits) {
+    if (!value || *value < unit.least) continue;
+    notes.push_back("timestamps like " + std::string(timestamp) + " were taken as " + unit.name);
+    return unit.ns;
+  }
+  return kSecond;
+}
+
+Stamp requireStamp(const LineReader& reader, std::string_view word, Stamp unit) {
+  std::string text(word);
+  if (unit != kSecond) {
+    // A power of ten moves the point only: exact in any unit.
+    const std::size_t e = text.find_first_of("eE");
+    const auto given = e == std::string::npos
+                           ? std::optional<std::int64_t>(0)
+                           : parseInt(text[e + 1] == '+' ? text.substr(e + 2) : text.substr(e + 1));
+    if (!given) reader.fail(inQuotes(word), "a timestamp");
+    const int power =
+        static_cast<int>(std::lround(std::log10(static_cast<double>(kSecond / unit))));
+    text = text.substr(0, e) + "e" + std::to_string(*given - power);
+  }
+  const auto stamp = parseTimestamp(text);
+  if (!stamp) reader.fail(inQuotes(word), "a timestamp");
+  return *stamp;
+}
+
+}  // namespace pcrb

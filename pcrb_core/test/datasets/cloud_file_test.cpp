@@ -1,0 +1,169 @@
+#include "pcrb_core/datasets/cloud_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "pcrb_core/error.hpp"
+#include "support/expect_error.hpp"
+
+namespace pcrb {
+namespace {
+
+template <typename Number>
+std::string bytesOf(const std::vector<Number>& numbers, bool big_endian = false) {
+  std::string bytes;
+  for (const Number number : numbers) {
+    std::string one(sizeof(number), '\0');
+    std::memcpy(one.data(), &number, sizeof(number));
+    if (big_endian) std::reverse(one.begin(), one.end());
+    bytes += one;
+  }
+  return bytes;
+}
+
+SensorScan parse(const std::string& bytes, const std::string& name,
+                 const CloudFileOptions& options = {}) {
+  return parseCloudFile(bytes, name, options);
+}
+
+/// (1.5, -2, 3) and (4, 5, 6).
+void expectTwoPoints(const SensorScan& scan) {
+  ASSERT_EQ(scan.points.size(), 2u);
+  EXPECT_EQ(scan.points[0], Eigen::Vector3d(1.5, -2, 3));
+  EXPECT_EQ(scan.points[1], Eigen::Vector3d(4, 5, 6));
+}
+
+std::string npy(const std::string& descr, const std::string& shape, const std::string& data,
+                const std::string& fortran = "False") {
+  const std::string header =
+      "{'descr': " + descr + ", 'fortran_order': " + fortran + ", 'shape': " + shape + ", }\n";
+  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header +
+         data;
+}
+
+TEST(CloudFile, KnowsItsEndingsInAnyCase) {
+  for (const char* name : {"a.pcd", "b.PLY", "c.bin", "d.Npy"}) EXPECT_TRUE(isCloudFileName(name));
+  for (const char* name : {"a.txt", "pcd", "a.pcd.gz"}) EXPECT_FALSE(isCloudFileName(name));
+}
+
+TEST(CloudFile, StampsAreFoundInNames) {
+  EXPECT_EQ(stampOfFileName("1311878220.377686160.pcd"), 1311878220377686160);
+  EXPECT_EQ(stampOfFileName("scan_5.000000001.ply"), 5000000001);
+  EXPECT_EQ(stampOfFileName("urban05_1524185042111111111.pcd"), 1524185042111111111);
+  EXPECT_FALSE(stampOfFileName("PointCloud12.pcd"));
+  EXPECT_FALSE(stampOfFileName("000012.bin"));
+}
+
+TEST(CloudFile, ReadsPlyOfTextAndOfEitherByteOrderInDouble) {
+  const std::string elements =
+      "comment made by hand\nelement vertex 2\nproperty double x\nproperty double y\n"
+      "property double z\nproperty uchar red\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const std::string text = "ply\nformat ascii 1.0\n" + elements + "1.5 -2 3 7\n4 5 6 8\n3 0 1 1\n";
+  expectTwoPoints(parse(text, "a.ply"));
+  for (const bool big_endian : {false, true}) {
+    const std::string data = bytesOf<double>({1.5, -2, 3}, big_endian) + '\7' +
+                             bytesOf<double>({4, 5, 6}, big_endian) + "\1\3faces";
+    const std::string format = big_endian ? "binary_big_endian" : "binary_little_endian";
+    expectTwoPoints(parse("ply\nformat " + format + " 1.0\n" + elements + data, "a.ply"));
+  }
+  PCRB_EXPECT_ERROR(InvalidFile, parse("ply\nformat ascii 1.0\n" + elements + "1 2 3 7\n", "a.ply"),
+                    "the end after 1 vertices");
+  PCRB_EXPECT_ERROR(InvalidFile, parse("ply\nformat ascii 1.0\n" + elements + "1 2 3\n", "a.ply"),
+                    "a.ply:12: found '1 2 3' (3 fields)");
+  PCRB_EXPECT_ERROR(InvalidFile, parse("solid x\n", "a.ply"), "expected `ply`");
+  PCRB_EXPECT_ERROR(
+      InvalidFile,
+      parse("ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n"
+            "property float y\nproperty float z\nend_header\n1234",
+            "a.ply"),
+      "is the file cut?");
+}
+
+TEST(CloudFile, ReadsTheTimesOfVertices) {
+  const std::string head =
+      "element vertex 2\nproperty uint t\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
+  const std::string text = "ply\nformat ascii 1.0\n" + head + "0 1.5 -2 3\n50000000 4 5 6\n";
+  const std::string data = bytesOf<std::uint32_t>({0}) + bytesOf<float>({1.5F, -2, 3}) +
+                           bytesOf<std::uint32_t>({50'000'000}) + bytesOf<float>({4, 5, 6});
+  for (const std::string& bytes : {text, "ply\nformat binary_little_endian 1.0\n" + head + data}) {
+    const SensorScan scan = parse(bytes, "a.ply");
+    expectTwoPoints(scan);
+    ASSERT_EQ(scan.times.size(), 2u);
+    EXPECT_DOUBLE_EQ(scan.times[1], 0.05);
+  }
+}
+
+TEST(CloudFile, ReadsRecordsOfFloatsAndSuspectsAnotherLength) {
+  const std::string kitti = bytesOf<float>({1.5F, -2, 3, 0.1F, 4, 5, 6, 0.2F});
+  expectTwoPoints(parse(kitti, "000000.bin"));
+  const std::string nuscenes = bytesOf<float>({1.5F, -2, 3, 0.1F, 9, 4, 5, 6, 0.2F, 9});
+  CloudFileOptions five;
+  five.bin_fields = 5;
+  expectTwoPoints(parse(nuscenes, "000000.bin", five));
+  PCRB_EXPECT_ERROR(InvalidFile, parse(nuscenes.substr(1), "000000.bin"), "found 39 bytes");
+  // Doubles, of which 16 bytes are no point.
+  std::vector<double> doubles(600, 12.345678);
+  PCRB_EXPECT_ERROR(InvalidFile,
+                    parse(
+                        bytesOf(doubles) + bytesOf<float>({1e30F, 0, 0, 0}) +
+                            [] {
+                              std::string far;
+                              for (int i = 0; i < 20; ++i) far += bytesOf<float>({1e30F, 0, 0, 0});
+                              return far;
+                            }(),
+                        "000000.bin"),
+                    "are these longer or shorter? (--bin-fields)");
+  PCRB_EXPECT_ERROR(InvalidFile, parse("version https://git-lfs.github.com/spec/v1\n", "0.bin"),
+                    "a Git LFS pointer");
+}
+
+TEST(CloudFile, ReadsArraysOfNumpy) {
+  expectTwoPoints(
+      parse(npy("'<f4'", "(2, 4)", bytesOf<float>({1.5F, -2, 3, 9, 4, 5, 6, 9})), "a.npy"));
+  expectTwoPoints(
+      parse(npy("'>f8'", "(2, 3)", bytesOf<double>({1.5, -2, 3, 4, 5, 6}, true)), "a.npy"));
+  expectTwoPoints(
+      parse(npy("'<f4'", "(2, 3)", bytesOf<float>({1.5F, 4, -2, 5, 3, 6}), "True"), "a.npy"));
+  expectTwoPoints(
+      parse(npy("'<f4'", "(1, 2, 3)", bytesOf<float>({1.5F, -2, 3, 4, 5, 6})), "a.npy"));
+  PCRB_EXPECT_ERROR(InvalidFile, parse(npy("'<f4'", "(2, 2)", "12345678"), "a.npy"),
+                    "an array of shape '(2, 2)'");
+  PCRB_EXPECT_ERROR(InvalidFile, parse(npy("'<i4'", "(2, 3)", "12345678"), "a.npy"), "'<i4'");
+  PCRB_EXPECT_ERROR(InvalidFile, parse(npy("'<f4'", "(9, 3)", "12345678"), "a.npy"),
+                    "is the file cut?");
+  PCRB_EXPECT_ERROR(InvalidFile, parse("no array at all", "a.npy"), "another beginning");
+}
+
+TEST(CloudFile, ReadsRecordsOfNumpyWithTheTimesOfTheirPoints) {
+  const std::string record =
+      bytesOf<float>({1.5F, -2, 3}) + bytesOf<std::uint32_t>({50'000'000}) + "pad.";
+  const SensorScan scan = parse(
+      npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('t', '<u4'), ('', '|V4')]", "(1,)", record),
+      "a.npy");
+  ASSERT_EQ(scan.points.size(), 1u);
+  EXPECT_EQ(scan.points[0], Eigen::Vector3d(1.5, -2, 3));
+  ASSERT_EQ(scan.times.size(), 1u);
+  EXPECT_DOUBLE_EQ(scan.times[0], 0.05);
+  PCRB_EXPECT_ERROR(InvalidFile,
+                    parse(npy("[('x', '<f4'), ('y', '<f4')]", "(1,)", "12345678"), "a.npy"),
+                    "found the fields x y");
+}
+
+TEST(CloudFile, ReadsPcdAndCountsWhatIsNotFinite) {
+  const SensorScan scan = parse(
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\n"
+      "VIEWPOINT 7 8 9 1 0 0 0\nPOINTS 3\nDATA ascii\n1.5 -2 3\nnan nan nan\n4 5 6\n",
+      "a.pcd");
+  expectTwoPoints(scan);
+  EXPECT_EQ(scan.counts.read, 3u);
+  EXPECT_EQ(scan.counts.non_finite, 1u);
+  EXPECT_EQ(scan.viewpoint.translation(), Eigen::Vector3d(7, 8, 9));
+}
+
+}  // namespace
+}  // namespace pcrb

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "conversion/own_request.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/pcd.hpp"
+#include "support/expect_error.hpp"
+#include "support/log_folder.hpp"
+#include "support/own_log.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+using pcrb_test::bodyAt;
+
+std::string floats(const std::vector<float>& numbers) {
+  std::string bytes(4 * numbers.size(), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return bytes;
+}
+
+const std::string kPly =
+    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+    "property float z\nend_header\n1 2 3\n";
+
+/// The k-th pose as 12 numbers.
+std::string matrixRow(std::uint32_t k) {
+  return "0 -1 0 " + std::to_string(0.5 * k) + " 1 0 0 2 0 0 1 3";
+}
+
+class OwnFilesConversion : public testing::Test {
+ protected:
+  OwnRequest request() const {
+    OwnRequest request;
+    request.inputs = {folder_.file("scans")};
+    request.root = folder_.file("root");
+    request.data_set = "mine";
+    return request;
+  }
+
+  void write(const std::string& name, const std::string& bytes) const {
+    pcrb_test::writeFile(folder_.file("scans/" + name), bytes);
+  }
+
+  /// That (1, 2, 3) of the scan is where the k-th pose puts it.
+  void expectPlaced(const std::string& name, std::uint32_t k) const {
+    const auto cloud = pcrb::readPcd(folder_.file("root/mine/scans/" + name + ".pcd"));
+    ASSERT_EQ(cloud.points.size(), 1u);
+    EXPECT_LT((cloud.points[0] - bodyAt(k) * Eigen::Vector3d(1, 2, 3)).norm(), 1e-9) << name;
+    EXPECT_LT((cloud.viewpoint.matrix() - bodyAt(k).matrix()).norm(), 1e-9) << name;
+  }
+
+  pcrb_test::TemporaryFolder folder_;
+};
+
+TEST_F(OwnFilesConversion, KittisRecordsAndPosesBelongTogetherByTheirNumbers) {
+  write("velodyne/000000.bin", floats({1, 2, 3, 0.5}));
+  write("velodyne/000002.bin", floats({1, 2, 3, 0.5}));
+  write("poses.txt", matrixRow(0) + "\n" + matrixRow(1) + "\n" + matrixRow(2) + "\n");
+  EXPECT_EQ(convertOwn(request()).written.size(), 2u);
+  expectPlaced("000000", 0);
+  expectPlaced("000002", 2);
+}
+
+TEST_F(OwnFilesConversion, PosesWithoutNumbersInTheNamesBelongToTheirOrder) {
+  for (const char* name : {"a.ply", "b.ply", "c.ply"}) write(name, kPly);
+  write("traj.log",
+        "0 0 3\n0 -1 0 0\n1 0 0 2\n0 0 1 3\n0 0 0 1\n1 1 3\n0 -1 0 0.5\n1 0 0 2\n"
+        "0 0 1 3\n0 0 0 1\n2 2 3\n0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n");
+  convertOwn(request());
+  expectPlaced("a", 0);
+  expectPlaced("c", 2);
+  write("d.ply", kPly);
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
+                    "found 3 poses without timestamps for 4 clouds, expected as many");
+}
+
+TEST_F(OwnFilesConversion, NamesWithTimestampsAreMatchedInTime) {
+  write("1500000000.000000000.ply", kPly);
+  write("1500000000.100000000.ply", kPly);
+  const std::string q = " 2 3 0 0 0.70710678118654752 0.70710678118654752\n";
+  write("groundtruth.txt", "1500000000.0 0" + q + "1500000000.2 1" + q);
+  convertOwn(request());
+  expectPlaced("1500000000.100000000", 1);
+  write("cloud.ply", kPly);
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
+                    "cloud.ply: found a name without a timestamp");
+}
+
+TEST_F(OwnFilesConversion, TimesComeFromAFileOfALineACloud) {
+  write("1.ply", kPly);
+  write("2.ply", kPly);
+  write("times.txt", "0\n0.1\n");
+  const std::string q = ",2,3,0.70710678118654752,0,0,0.70710678118654752\n";
+  write("gt.csv", "0,0" + q + "200000000,1" + q);
+  convertOwn(request());
+  expectPlaced("2", 1);
+  write("times.txt", "0\n");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
+                    "times.txt: found 1 timestamps, expected 2");
+}
+
+TEST_F(OwnFilesConversion, NamedColumnsTieFilesToPoses) {
+  write("left.npy", std::string("\x93NUMPY\x01\x00\x3c\x00", 10) +
+                        "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 3)}  \n" +
+                        floats({1, 2, 3}));
+  write("right.pcd",
+        "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+        "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n");
+  write("poses.csv", "x,y,z,roll,pitch,yaw_deg,file\n1,2,3,0,0,90,right.pcd\n0,2,3,0,0,90,left\n");
+  convertOwn(request());
+  expectPlaced("left", 0);
+  expectPlaced("right", 2);
+}
+
+TEST_F(OwnFilesConversion, CloudsInOneFrameNeedNoPoses) {
+  write("a.ply", kPly);
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
+                    "found no poses, expected one file of poses (--poses), or clouds that are in "
+                    "one frame already (--in-world)");
+  OwnRequest placed = request();
+  placed.in_world = true;
+  convertOwn(placed);
+  const auto cloud = pcrb::readPcd(folder_.file("root/mine/scans/a.pcd"));
+  EXPECT_EQ(cloud.points.at(0), Eigen::Vector3d(1, 2, 3));
+  EXPECT_FALSE(cloud.hasViewpoint());
+  write("poses.csv", "file,x,y,z,roll,pitch,yaw_deg\na.ply,1,2,3,0,0,90\n");
+  convertOwn(placed);
+  const auto posed = pcrb::readPcd(folder_.file("root/mine/scans/a.pcd"));
+  EXPECT_EQ(posed.points.at(0), Eigen::Vector3d(1, 2, 3));
+  EXPECT_LT((posed.viewpoint.matrix() - bodyAt(2).matrix()).norm(), 1e-9);
+}
+
+TEST_F(OwnFilesConversion, ListsTheFilesThatCouldBeThePoses) {
+  write("a.ply", kPly);
+  write("truth.txt", matrixRow(0) + "\n");
+  write("estimate.txt", matrixRow(1) + "\n");
+  write("calib.txt", "P0: 1 2 3\n");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
+                    "found poses in " + folder_.file("scans/estimate.txt") + ", " +
+                        folder_.file("scans/truth.txt") + ", expected one file of poses");
+  OwnRequest chosen = request();
+  chosen.poses = folder_.file("scans/truth.txt");
+  convertOwn(chosen);
+  expectPlaced("a", 0);
+  chosen.T_body_sensor = pcrb::Transform(Eigen::Translation3d(-1, -2, -3));
+  convertOwn(chosen);
+  const auto cloud = pcrb::readPcd(folder_.file("root/mine/scans/a.pcd"));
+  EXPECT_LT((cloud.points[0] - Eigen::Vector3d(0, 2, 3)).norm(), 1e-9);
+}
+
+TEST_F(OwnFilesConversion, ReadsCloudsFromAnArchive) {
+  pcrb_test::writeArchive(folder_.file("walk.zip"),
+                          {{"walk/0.ply", kPly}, {"walk/poses.txt", matrixRow(0) + "\n"}});
+  OwnRequest archived = request();
+  archived.inputs = {folder_.file("walk.zip")};
+  EXPECT_EQ(convertOwn(archived).sequence, "walk");
+}
+
+TEST_F(OwnFilesConversion, ABagOfRos2InAFolderIsNamed) {
+  write("metadata.yaml", "rosbag2_bagfile_information:\n");
+  write("rosbag2_0.db3", "SQLite format 3");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
+                    "rosbag2_0.db3: found a bag in a folder");
+}
+
+TEST_F(OwnFilesConversion, AFolderWithoutCloudsIsNamed) {
+  write("a.txt", "nothing\n");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()), "found no cloud among 1 files");
+}
+
+}  // namespace
+}  // namespace pcrb_tools
