@@ -10,7 +10,9 @@
 
 namespace pcrb {
 
-bool DatasetCloud::hasViewpoint() const { return !viewpoint.isApprox(Transform::Identity(), 0.0); }
+bool DatasetCloud::hasViewpoint() const {
+  return is_viewpoint_known || !viewpoint.isApprox(Transform::Identity(), 0.0);
+}
 
 Eigen::Vector3d chooseLocalOrigin(const DatasetCloud& target) {
   if (target.points.empty()) throw InvalidProblem("target cloud has no points");

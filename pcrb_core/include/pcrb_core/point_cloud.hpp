@@ -14,7 +14,8 @@ namespace pcrb {
 struct DatasetCloud {
   std::vector<Eigen::Vector3d> points;          ///< m, finite
   std::vector<float> intensity;                 ///< one per point, or empty where there is none
-  Transform viewpoint = Transform::Identity();  ///< T_dataset_sensor; identity counts as unknown
+  Transform viewpoint = Transform::Identity();  ///< T_dataset_sensor, where it is known
+  bool is_viewpoint_known = false;              ///< false: still known unless it is the identity
   std::size_t dropped_non_finite = 0;           ///< points left out on load: NaN or infinite
   std::vector<std::string> notes;               ///< of the reader: what it took although it is odd
 

@@ -39,6 +39,7 @@ DatasetCloud placeScan(SensorScan scan, const Transform& T_dataset_sensor) {
   DatasetCloud cloud;
   cloud.points = std::move(scan.points);
   cloud.viewpoint = asViewpoint(T_dataset_sensor);
+  cloud.is_viewpoint_known = true;
   cloud.dropped_non_finite = scan.counts.non_finite;
   return cloud;
 }

@@ -29,8 +29,11 @@ void appendValues(std::string& text, std::initializer_list<double> values) {
 
 std::string formatHeader(const DatasetCloud& cloud) {
   const std::string points = std::to_string(cloud.points.size());
-  std::string text =
-      "# .PCD v0.7 - Point Cloud Data file format\n"
+  // Only where the value would not tell: other files stay byte by byte what they were.
+  const bool is_identity = cloud.viewpoint.isApprox(Transform::Identity(), 0.0);
+  std::string text = "# .PCD v0.7 - Point Cloud Data file format\n";
+  if (cloud.is_viewpoint_known && is_identity) text += kViewpointComment + std::string("\n");
+  text +=
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
       "WIDTH " +
       points + "\nHEIGHT 1\nVIEWPOINT ";
@@ -64,6 +67,7 @@ DatasetCloud parsePcd(const char* begin, const char* end, const std::string& nam
   const PcdHeader header = readPcdHeader(lines);
   DatasetCloud cloud;
   cloud.viewpoint = header.viewpoint;
+  cloud.is_viewpoint_known = header.is_viewpoint_known;
   cloud.notes = header.notes;
   switch (header.data) {
     case PcdData::kAscii:

@@ -51,6 +51,7 @@ class HeaderReader {
   void readLine(std::string_view line) {
     Values values;
     splitAtBlanks(line, values);
+    if (line.rfind(kViewpointComment, 0) == 0) header_.is_viewpoint_known = true;
     if (values.empty() || values[0].front() == '#') return;
     const std::string entry(values[0] == "COLUMNS" ? "FIELDS" : values[0]);
     if (has(entry)) lines_.fail(entry + " again", "it once");

@@ -29,11 +29,16 @@ struct PcdField {
   bool isPadding() const { return name == "_"; }
 };
 
+/// Comment of a header whose VIEWPOINT is a sensor's pose although it is the identity, as that of a
+/// trajectory's first scan may be.
+inline constexpr const char* kViewpointComment = "# VIEWPOINT is the sensor's pose";
+
 /// A checked PCD header: its entries agree with each other, not yet with the data.
 struct PcdHeader {
   std::vector<PcdField> fields;  ///< x, y, z are used: once, TYPE F, COUNT 1
   std::size_t points = 0;
   Transform viewpoint = Transform::Identity();
+  bool is_viewpoint_known = false;  ///< a comment says so
   PcdData data = PcdData::kAscii;
   std::vector<std::string> notes;  ///< what was taken although it is not as it should be
 

@@ -204,6 +204,19 @@ TEST(Pcd, ViewpointIsTheSensorsPose) {
   EXPECT_LT((cloud.viewpoint * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0, 2, 3)).norm(), 1e-15);
 }
 
+TEST(Pcd, IdentityIsTheSensorsPoseWhereTheConverterSaysSo) {
+  const pcrb_test::TemporaryFolder folder;
+  DatasetCloud cloud;
+  cloud.points = {{1, 2, 3}};
+  writePcd(folder.file("unknown.pcd"), cloud);
+  EXPECT_FALSE(readPcd(folder.file("unknown.pcd")).hasViewpoint());
+  cloud.is_viewpoint_known = true;
+  writePcd(folder.file("known.pcd"), cloud);
+  EXPECT_TRUE(readPcd(folder.file("known.pcd")).hasViewpoint());
+  writePcd(folder.file("again.pcd"), readPcd(folder.file("known.pcd")));
+  EXPECT_TRUE(readPcd(folder.file("again.pcd")).hasViewpoint());
+}
+
 TEST(Pcd, WritesThePublishedForm) {
   const pcrb_test::TemporaryFolder folder;
   DatasetCloud cloud;

@@ -76,6 +76,7 @@ ConvertedScan makeEthCloud(std::string_view bytes, const std::string& path, EthF
   pcrb::DatasetCloud cloud;
   cloud.points = std::move(scan.points);
   cloud.viewpoint = pcrb::asViewpoint(pose);
+  cloud.is_viewpoint_known = true;
   return {std::move(cloud), counts};
 }
 

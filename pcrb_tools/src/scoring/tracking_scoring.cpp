@@ -200,7 +200,10 @@ pcrb::DatasetCloud readScan(const TrackingOptions& options, const std::string& n
   const std::string path = options.folder + "/" + name;
   pcrb::DatasetCloud cloud = pcrb::readPcd(path);
   if (!cloud.hasViewpoint()) {
-    throw pcrb::InvalidFile(path, 0, "no VIEWPOINT", "the sensor's true pose");
+    throw pcrb::InvalidFile(
+        path, 0, "no VIEWPOINT",
+        "the sensor's true pose (the identity needs the header's comment `# VIEWPOINT is "
+        "the sensor's pose`)");
   }
   return cloud;
 }
