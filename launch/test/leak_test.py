@@ -62,7 +62,7 @@ class LeakTest(BridgeTestCase):
         recorder = self.recorder
         wait_until(lambda: f'{server.namespace}/summary' in recorder.recorded_topics(), 'the summary comes')
         recorder.look()
-        for process in server, *others:
+        for process in (server, *others):
             recorder.add_process(process)
         server.interrupt()
         self.assert_ends_well(server)

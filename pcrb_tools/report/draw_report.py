@@ -22,7 +22,7 @@ def write(path, text):
 
 
 def draw_page(report):
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(str(HERE)), autoescape=True, trim_blocks=True,
                                      undefined=jinja2.StrictUndefined)
     environment.filters.update(page.FILTERS)
     static = {name: page.trusted((HERE / f'page.{name}').read_text(encoding='utf-8')) for name in ('css', 'js')}
