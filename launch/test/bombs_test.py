@@ -106,6 +106,12 @@ class BombsTest(TestCase):
             self.explode(name, pattern, 'compute_overlap', self.folder, '--threads', '2', '--distance', '0.1')
             self.clear()
 
+    def test_a_file_of_holes(self):
+        pcd(os.path.join(self.folder, 'a.pcd'), 10**9, 'binary', b'')
+        os.truncate(os.path.join(self.folder, 'a.pcd'), 12 * 10**9)
+        self.explode('PCD of 12 GB of holes', r'found 12000 MB, expected at most', 'build_map', self.folder, '-o',
+                     self.path('map.pcd'), '--leaf', '0.1')
+
     def test_archives(self):
         archive = os.path.join(self.folder, 'yard.tgz')
         with tarfile.open(archive, 'w:gz') as tgz:

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/memory_budget.hpp"
 
 namespace pcrb {
 namespace {
@@ -65,9 +66,22 @@ class Descriptor {
 
 }  // namespace
 
+namespace {
+
+/// A file on a disk may claim any size and take none.
+void requireWithinBudget(const std::string& path, std::size_t size) {
+  const std::size_t limit = MemoryBudget::ofProcess().limit();
+  if (size <= limit) return;
+  throw InvalidFile(path, 0, std::to_string(size / 1000000) + " MB",
+                    "at most " + std::to_string(limit / 1000000) + " MB (--memory)");
+}
+
+}  // namespace
+
 FileBytes::FileBytes(const std::string& path) {
   const Descriptor file(path);
   const std::size_t size = file.size();
+  requireWithinBudget(path, size);
   bytes_.reset(new char[size]);
   size_ = file.read(bytes_.get(), size);
 }

@@ -11,7 +11,8 @@ namespace pcrb {
 /// The bytes of a file in memory.
 class FileBytes {
  public:
-  /// @throws InvalidFile  if the path is no regular file or cannot be read.
+  /// @throws InvalidFile  if the path is no regular file, cannot be read, or is larger than the
+  ///                      process's MemoryBudget.
   explicit FileBytes(const std::string& path);
 
   const char* begin() const { return bytes_.get(); }
