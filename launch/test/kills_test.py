@@ -26,7 +26,7 @@ from pcrb_testing_bridge import BridgeTestCase, make_answer
 from survival_test import without_times
 
 LONG = os.environ.get('PCRB_LONG_TESTS') == '1'
-TEMPORARY = re.compile(r'\.(partial|part|lock|tmp)\b|/\.[^/]*$|-(wal|shm|journal)$|log')
+TEMPORARY = re.compile(r'\.(partial|part|lock|tmp)\b|(^|/)\.[^/]*$|-(wal|shm|journal)$|\.log$')
 TIMES = {'report.json', 'index.html', 'SHA256SUMS'}  # may have paths or times in them
 
 
