@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """What a client gains that remembers instead of registering, and what strangers can do to a run."""
+import csv
 import io
 import math
 import os
 import socket
 import struct
+import subprocess
 import sys
 from urllib.parse import urlparse
 
@@ -14,12 +16,13 @@ import rospy
 import rostest
 from pcrb_msgs.msg import Problem
 from pcrb_msgs.srv import Ready, ReadyRequest, ReadyResponse, SubmitPose, SubmitPoseRequest, SubmitPoseResponse
+from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing_adversaries import Rememberer, Trilaterator
-from pcrb_testing import TestCase, run_info, wait_until
+from pcrb_testing_adversaries import Rememberer, Reuser, Trilaterator
+from pcrb_testing import TestCase, executable, run_info, wait_until
 
 
 def call_as(caller, service, kind, request, response):
@@ -86,8 +89,28 @@ class FairPlayTest(TestCase):
         self.assertGreaterEqual(sum(row['error'] < 1e-4 for row in live), 10, 'what the audit is for')
         self.assertLessEqual(sum(self.gains(audited)), 0.05 * len(audited))
 
-    def test_an_audited_problem_is_solved_by_its_ideal_reply_and_costs_the_guess_as_much(self):
-        """The audit gives 95 % of the points; nothing says which, so that a client aligns what it sees."""
+    def test_a_client_that_solves_a_pair_once_and_uses_it_again_is_reported(self):
+        honest = self.server(self.data, run=self.path('honest'), sequences='kitchen')
+        self.client(honest).serve(honest)
+        self.assert_ends_well(honest)
+        runs = [f'honest={honest.run}']
+        for name, points, parameters in (('plain', 1500, {}), ('audited', 600, {'audit': True, 'results': 'end'})):
+            data = maths.make_data_set(self.path(name), points=points, perturbations=8)
+            rows = self.attack(Reuser(), data, **parameters)
+            print(f'pairs reused, {name}: median {np.median([row["error"] for row in rows]):.2g}', flush=True)
+            runs.append(f'{name}={self.path(f"run {parameters}")}')
+        subprocess.run([executable('pcrb_tools', 'report'), *runs, '--output', self.path('report'), '--no-figures',
+                        '--resamples', '50'], check=True)
+        with open(self.path('report', 'tables', 'local_audit.csv'), newline='') as file:
+            verdicts = {row['method']: row['verdict'] for row in csv.DictReader(file)}
+        self.assertEqual(set(verdicts), {'honest', 'plain', 'audited'})
+        self.assertNotIn('gains', verdicts.pop('honest'))
+        for verdict in verdicts.values():
+            self.assertRegex(verdict, r"^gains by memory: [\d.]+ on a pair's first problem, [\d.]+ on later ones$")
+        with open(self.path('report', 'index.html')) as page:
+            self.assertIn('plain: gains by memory', page.read())
+
+    def test_an_audited_guess_costs_as_much(self):
         for answer in ({}, {'audit': True}):
             server = self.server(self.data, run=self.path(f'guess {answer}'), sequences='kitchen', **answer)
             self.client(server).serve(server)
@@ -95,6 +118,25 @@ class FairPlayTest(TestCase):
             for row in server.rows():
                 self.assertAlmostEqual(row['error'], row['initial_misalignment'], 9)
             self.assertEqual(run_info(server.run).get('audit'), 'true' if answer else None)
+
+    def test_after_its_score_an_audited_source_shows_no_point_that_it_had_not(self):
+        server = self.server(self.data, sequences='kitchen', audit=True, time_limit=60.0)
+        shown = []
+        viewer = rospy.Subscriber(f'{server.namespace}/source_aligned', PointCloud2, shown.append)
+        self.addCleanup(viewer.unregister)
+        client = self.client(server)
+        problem = client.next_problem()
+        client.take_source(problem)
+        wait_until(viewer.get_num_connections, 'it will be seen')
+        client.submit(problem)
+        published = maths.points_of(client.newest['source'])
+        wait_until(lambda: shown, 'the aligned source comes')
+        aligned = maths.points_of(shown[0])
+        self.assertLess(len(published), len(self.data.source_points(self.data.by_id(server.rows()[0]['problem_id']))))
+        self.assertEqual(len(aligned), len(published))
+        self.assertLess(np.abs(maths.moved(maths.rigid_fit(published, aligned), published) - aligned).max(), 1e-4)
+        client.serve(server)
+        self.assert_ends_well(server)
 
     def test_errors_are_published_when_the_run_has_ended(self):
         server = self.server(self.data, sequences='kitchen', results='end', summary_hold_time=60.0)
