@@ -27,7 +27,8 @@ def read_cloud(path):
     """VIEWPOINT, and x y z of an ASCII PCD file of this suite."""
     with open(path, encoding='utf-8') as file:
         viewpoint = next(line for line in file if line.startswith('VIEWPOINT')).split()[1:]
-    return np.array(viewpoint, float), np.loadtxt(path, skiprows=11, usecols=(0, 1, 2), ndmin=2)
+        next(line for line in file if line.startswith('DATA'))
+        return np.array(viewpoint, float), np.loadtxt(file, usecols=(0, 1, 2), ndmin=2)
 
 
 class OwnDataTest(TestCase):

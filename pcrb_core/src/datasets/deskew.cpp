@@ -29,6 +29,7 @@ PoseStatus placeMovingScan(const SensorScan& scan, Stamp stamp, const PoseAt& po
     cloud.points.emplace_back(pose->second * scan.points[i]);
   }
   cloud.viewpoint = asViewpoint(at_stamp.T_world_body);
+  cloud.is_viewpoint_known = true;
   cloud.dropped_non_finite = scan.counts.non_finite;
   return PoseStatus::kFound;
 }

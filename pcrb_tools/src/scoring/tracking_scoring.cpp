@@ -328,11 +328,8 @@ bool runTrackingScoring(const TrackingOptions& options, std::ostream& out) {
   const std::string hint = orderHint(rotationsOf(match(scans)));
   if (!hint.empty()) notes.push_back(hint);
   std::string summary = summarizeTracking(scans, options);
-  for (const std::string& note : notes)
-    summary += "note: " + note +
-               "
-               ";
-               fs::create_directories(options.output);
+  for (const std::string& note : notes) summary += "note: " + note + "\n";
+  fs::create_directories(options.output);
   pcrb::writeFileAtomically(options.output + "/scans.csv", formatScansCsv(scans));
   pcrb::writeFileAtomically(options.output + "/truth.tum", formatTruthTum(scans));
   pcrb::writeFileAtomically(options.output + "/estimate.tum", formatEstimateTum(scans));
