@@ -48,7 +48,7 @@ std::vector<JudgedCovariance> drawn(std::size_t count, double factor) {
   std::vector<JudgedCovariance> judged;
   for (std::size_t i = 0; i < count; ++i) {
     PoseErrorVector z;
-    for (double& value : z) value = normal(random);
+    for (int axis = 0; axis < 6; ++axis) z[axis] = normal(random);
     judged.push_back(judgeCovariance(L * z, stated).value());
   }
   return judged;
@@ -174,7 +174,7 @@ TEST(Calibration, TellsOverconfidentFromUnderconfident) {
   const auto wide = drawn(500, 4.0);
   EXPECT_EQ(calibrate(wide, eachItsOwn(500)).verdict, "underconfident");
   auto failing = drawn(500, 1.0);
-  for (std::size_t i = 0; i < failing.size(); i += 5) failing[i].probability = 1.0;
+  for (std::size_t i = 0; i < failing.size(); i += 16) failing[i].probability = 1.0;
   EXPECT_EQ(calibrate(failing, eachItsOwn(500)).verdict, "overconfident where it fails");
 }
 

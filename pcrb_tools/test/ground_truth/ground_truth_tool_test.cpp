@@ -76,8 +76,9 @@ class WrongGroundTruth : public ::testing::Test {
  protected:
   static constexpr double kError = 0.04;  // m
 
-  WrongGroundTruth() {
+  explicit WrongGroundTruth(std::uint64_t seed = 1) {
     simulation::LogOptions logs;
+    logs.seed = seed;
     logs.size = {3, 80, 130, 0, 0, 0, 0, 1, 0, 0, 0};
     logs.ground_truth_error = kError;
     simulation::LogPlan plan = planEthLogs(logs);
@@ -130,7 +131,16 @@ class WrongGroundTruth : public ::testing::Test {
   std::vector<double> expected_;                   // m, misalignment of each pair
 };
 
-TEST_F(WrongGroundTruth, IsFoundWithItsSize) {
+/// The same with logs of other worlds and errors.
+class WrongGroundTruthOfAnySeed : public WrongGroundTruth,
+                                  public ::testing::WithParamInterface<std::uint64_t> {
+ protected:
+  WrongGroundTruthOfAnySeed() : WrongGroundTruth(GetParam()) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Seeds, WrongGroundTruthOfAnySeed, ::testing::Values(1, 2, 3, 4));
+
+TEST_P(WrongGroundTruthOfAnySeed, IsFoundWithItsSize) {
   run();
   const PairFile found = readPairFile(options_.output + "/pairs/eth_apartment.csv");
   ASSERT_EQ(found.misalignments.size(), expected_.size());
