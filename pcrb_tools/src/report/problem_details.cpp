@@ -153,9 +153,8 @@ void ProblemDetails::addComponents(const pcrb::RunInfo& info, ScoredProblem& pro
   requireSameError(problem, residual, components);
   problem.components = components.values();
   if (!problem.covariance) return;
-  const Transform truth = presentation.applied.inverse();
-  problem.judged =
-      pcrb::judgeCovariance(pcrb::poseErrorVector(*problem.reply, truth), *problem.covariance);
+  problem.judged = pcrb::judgeCovariance(
+      pcrb::poseErrorVector(*problem.reply, presentation.ideal()), *problem.covariance);
 }
 
 void ProblemDetails::addComponents(Entry& entry, Progress& progress) {
