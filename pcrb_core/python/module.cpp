@@ -8,6 +8,7 @@
 
 #include <exception>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,8 +18,11 @@
 #include "pcrb_core/evaluation/correspondence_error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
 #include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/problem/dataset.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
+#include "pcrb_core/registration/registration.hpp"
+#include "pcrb_core/run/in_process_run.hpp"
 #include "pcrb_core/run/results_store.hpp"
 #include "pcrb_core/run/run_plan.hpp"
 
@@ -143,30 +147,41 @@ py::object orNone(const std::optional<Value>& value) {
   return value ? py::cast(*value) : py::object(py::none());
 }
 
+py::dict toRow(const pcrb::Result& result) {
+  py::dict row;
+  row["data_set"] = result.key.data_set;
+  row["sequence"] = result.key.sequence;
+  row["kind"] = toString(result.key.kind);
+  row["problem_id"] = result.key.problem_id;
+  row["source"] = result.source;
+  row["target"] = result.target;
+  row["overlap"] = result.overlap;
+  row["outcome"] = toString(result.outcome);
+  row["reason"] = result.reason;
+  row["error"] = result.error;
+  row["initial_misalignment"] = result.initial_misalignment;
+  row["rotation_error_rad"] = result.rotation_error;
+  row["translation_error_m"] = result.translation_error;
+  row["runtime_s"] = orNone(result.runtime);
+  row["solver_time_s"] = orNone(result.solver_time);
+  row["position"] = orNone(result.position);
+  row["orientation"] = py::none();
+  if (result.orientation) row["orientation"] = py::cast(result.orientation->coeffs().eval());
+  return row;
+}
+
 py::list readResults(const std::string& folder) {
   const pcrb::ResultsStore store(folder, pcrb::ResultsStore::Access::kReadOnly);
   py::list list;
-  for (const pcrb::Result& result : store.results()) {
-    py::dict row;
-    row["data_set"] = result.key.data_set;
-    row["sequence"] = result.key.sequence;
-    row["kind"] = toString(result.key.kind);
-    row["problem_id"] = result.key.problem_id;
-    row["source"] = result.source;
-    row["target"] = result.target;
-    row["overlap"] = result.overlap;
-    row["outcome"] = toString(result.outcome);
-    row["reason"] = result.reason;
-    row["error"] = result.error;
-    row["initial_misalignment"] = result.initial_misalignment;
-    row["rotation_error_rad"] = result.rotation_error;
-    row["translation_error_m"] = result.translation_error;
-    row["runtime_s"] = orNone(result.runtime);
-    row["solver_time_s"] = orNone(result.solver_time);
-    row["position"] = orNone(result.position);
-    row["orientation"] = py::none();
-    if (result.orientation) row["orientation"] = py::cast(result.orientation->coeffs().eval());
-    list.append(row);
+  for (const pcrb::Result& result : store.results()) list.append(toRow(result));
+  return list;
+}
+
+py::list findSequences(const std::string& root) {
+  py::list list;
+  for (const pcrb::SequenceFiles& files : pcrb::findSequences(root)) {
+    list.append(
+        py::make_tuple(files.data_set, files.sequence, toString(files.kind), files.problem_file));
   }
   return list;
 }
@@ -202,6 +217,107 @@ py::list plan(const std::string& root, const std::vector<std::string>& sequences
 
 Eigen::Vector3d localOrigin(const Array& target) {
   return pcrb::chooseLocalOrigin(toCloud(target));
+}
+
+std::vector<std::size_t> selectSequences(
+    const std::vector<std::pair<std::string, std::string>>& known,
+    const std::vector<std::string>& words) {
+  std::vector<pcrb::SequenceName> names;
+  for (const auto& [data_set, sequence] : known) names.push_back({data_set, sequence});
+  return pcrb::selectSequences(names, words, "among these");
+}
+
+py::object cloudArray(const std::vector<float>& coordinates) {
+  const auto rows = static_cast<py::ssize_t>(coordinates.size() / 3);
+  return py::array_t<float>(std::vector<py::ssize_t>{rows, 3}, coordinates.data());
+}
+
+py::object intensityArray(const std::vector<float>& values) {
+  if (values.empty()) return py::none();
+  return py::array_t<float>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::object nextProblem(pcrb::InProcessRun& run) {
+  std::optional<pcrb::ClientProblem> problem;
+  {
+    const py::gil_scoped_release release;
+    problem = run.next();
+  }
+  if (!problem) return py::none();
+  py::dict fields;
+  fields["id"] = problem->id;
+  fields["data_set"] = problem->data_set;
+  fields["sequence"] = problem->sequence;
+  fields["kind"] = toString(problem->kind);
+  fields["target"] = cloudArray(problem->target);
+  fields["source"] = cloudArray(problem->source);
+  fields["target_intensity"] = intensityArray(problem->target_intensity);
+  fields["source_intensity"] = intensityArray(problem->source_intensity);
+  fields["guess"] = py::cast(Eigen::Matrix4d(problem->guess.matrix()));
+  fields["has_guess"] = problem->has_guess;
+  return std::move(fields);
+}
+
+pcrb::Submission poseSubmission(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw) {
+  pcrb::Submission submission;
+  submission.position = position;
+  submission.orientation.coeffs() = xyzw;
+  return submission;
+}
+
+pcrb::Submission failure(const std::string& reason) {
+  pcrb::Submission submission;
+  submission.status = pcrb::Submission::Status::kFailed;
+  submission.reason = reason;
+  return submission;
+}
+
+/// What a C++ client sends for a matrix.
+py::tuple positionAndOrientation(const Rows& rows) {
+  const pcrb::Transform T = pcrb::requireRigid(rows);
+  const Eigen::Quaterniond q = Eigen::Quaterniond(T.linear()).normalized();
+  return py::make_tuple(Eigen::Vector3d(T.translation()), Eigen::Vector4d(q.coeffs()));
+}
+
+std::unique_ptr<pcrb::InProcessRun> makeRun(const std::string& root,
+                                            const std::vector<std::string>& sequences,
+                                            const std::vector<std::string>& kinds, std::size_t subset,
+                                            std::uint64_t seed, const std::string& presentation,
+                                            double time_limit, const std::string& folder,
+                                            const std::string& name) {
+  pcrb::InProcessRunOptions options;
+  options.run = folder;
+  options.client = name;
+  pcrb::RunConfiguration& configuration = options.configuration;
+  configuration.under_test = name;
+  configuration.selection.root = root;
+  configuration.selection.sequences = sequences;
+  configuration.selection.kinds.clear();
+  for (const std::string& kind : kinds) {
+    configuration.selection.kinds.push_back(pcrb::kindFromString(kind));
+  }
+  configuration.selection.subset = subset;
+  configuration.selection.seed = seed;
+  configuration.presentation.kind = pcrb::presentationFromString(presentation);
+  configuration.time_limit = time_limit;
+  return std::make_unique<pcrb::InProcessRun>(options);
+}
+
+void defineRun(py::module& module) {
+  py::class_<pcrb::Submission>(module, "Submission");
+  module.def("pose", &poseSubmission);
+  module.def("failure", &failure);
+  module.def("position_and_orientation", &positionAndOrientation);
+  py::class_<pcrb::InProcessRun>(module, "Run")
+      .def(py::init(&makeRun))
+      .def("__len__", &pcrb::InProcessRun::size)
+      .def("done", &pcrb::InProcessRun::done)
+      .def("next", &nextProblem)
+      .def("score", [](const pcrb::InProcessRun& run, const pcrb::Submission& submission,
+                       double runtime) { return toRow(run.score(submission, runtime)); })
+      .def("submit", [](pcrb::InProcessRun& run, const pcrb::Submission& submission,
+                        double runtime) { return toRow(run.submit(submission, runtime)); })
+      .def("finish", &pcrb::InProcessRun::finish);
 }
 
 std::map<std::string, std::string> readRunInfo(const std::string& folder) {
@@ -253,6 +369,10 @@ PYBIND11_MODULE(_pcrb, module) {
   module.def("perturbation_about", &perturbationAbout);
   module.def("plan", &plan);
   module.def("local_origin", &localOrigin);
+  defineRun(module);
+  module.def("find_sequences", &findSequences);
+  module.def("select_sequences", &selectSequences);
+  module.def("methods", &pcrb::registrationMethods);
   module.def("read_results", &readResults);
   module.def("read_run_info", &readRunInfo);
 }

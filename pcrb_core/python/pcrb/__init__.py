@@ -15,8 +15,8 @@ from . import _pcrb
 from ._pcrb import Error, InvalidFile, InvalidParameter, InvalidProblem, StoreError
 
 __all__ = ['Error', 'InvalidFile', 'InvalidParameter', 'InvalidProblem', 'StoreError', 'error', 'evaluate',
-           'make_perturbation', 'perturb', 'read_pcd', 'read_problems', 'read_results', 'read_run_info', 'write_pcd',
-           'write_problems']
+           'Problem', 'find_sequences', 'make_perturbation', 'methods', 'perturb', 'problems', 'read_pcd', 'read_problems', 'read_results', 'read_run_info',
+           'run', 'select_sequences', 'write_pcd', 'write_problems', 'write_results']
 
 
 def _points(cloud, name):
@@ -131,6 +131,31 @@ def write_problems(path, problems):
     _pcrb.write_problems(os.fsencode(path), rows)
 
 
+def find_sequences(root):
+    """The problem files below a root in the common layout.
+
+    Returns a list of tuples: data set, sequence, kind (`local` or `global`), path; sorted.
+    Raises InvalidFile if the root is no readable folder.
+    """
+    return _pcrb.find_sequences(os.fsencode(root))
+
+
+def select_sequences(known, words):
+    """Those of known sequences that words name: `all`, a sequence, a data set, or `data_set/sequence`; the rule of all programs.
+
+    known: pairs (data set, sequence)
+    Returns a list of them, in their order.
+    Raises InvalidParameter for a word that names none.
+    """
+    known = [tuple(pair) for pair in known]
+    return [known[i] for i in _pcrb.select_sequences(known, list(words))]
+
+
+def methods():
+    """Returns the names of the suite's registration methods, sorted."""
+    return _pcrb.methods()
+
+
 def read_results(run):
     """The results of a run, column by column.
 
@@ -158,3 +183,6 @@ def read_results(run):
 def read_run_info(run):
     """The table `run` of a run's store: a dict of text. It has the run's secret bits: not for a node under test."""
     return _pcrb.read_run_info(os.fsencode(run))
+
+
+from .benchmark import Problem, problems, run, write_results  # noqa: E402  (they use what is above)

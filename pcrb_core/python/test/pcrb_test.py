@@ -209,6 +209,99 @@ class AnyBytesTest(unittest.TestCase):
             self.assertIn(self.folder, str(raised.exception))
 
 
+class RunTest(unittest.TestCase):
+    """On one sequence of two clouds and two problems."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root, self.folder = pathlib.Path(folder.name, 'data'), pathlib.Path(folder.name, 'run')
+        clouds = self.root / 'rooms' / 'hall'
+        clouds.mkdir(parents=True)
+        self.points = some_points(offset=UTM)
+        for name in 'a.pcd', 'b.pcd':
+            pcrb.write_pcd(clouds / name, self.points)
+        self.P = pcrb.make_perturbation(self.points, [0.3, 0.2, 0.1], some_rotation())
+        pcrb.write_problems(self.root / 'rooms' / 'hall_local.txt', [
+            {'id': str(number), 'source': 'a.pcd', 'target': 'b.pcd', 'overlap': 1.0, 'perturbation': self.P}
+            for number in (10, 11)])
+
+    def ideal(self, problem):
+        """The paired points are known here: the transform that puts them on each other."""
+        source, target = (cloud.astype(np.float64) for cloud in (problem.source, problem.target))
+        u, _, vt = np.linalg.svd((source - source.mean(0)).T @ (target - target.mean(0)))
+        R = vt.T @ np.diag([1, 1, np.linalg.det(vt.T @ u.T)]) @ u.T
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = R, target.mean(0) - R @ source.mean(0)
+        return pose
+
+    def test_problems_come_one_by_one_as_a_client_sees_them(self):
+        problems = []
+        for problem in pcrb.problems(self.root, 'rooms/hall'):
+            problems.append(problem)
+            self.assertEqual(problem.source.dtype, np.float32)
+            self.assertLess(np.abs(problem.target).max(), 200.0)
+            self.assertLess(problem.score(self.ideal(problem))['error'], 1e-5)
+            self.assertEqual(problem.score(problem.guess)['error'], problem.score(np.eye(4))['initial_misalignment'])
+        self.assertEqual([(p.id, p.index, p.count) for p in problems], [('10', 0, 2), ('11', 1, 2)])
+        with self.assertRaisesRegex(pcrb.InvalidParameter, 'hal'):
+            pcrb.problems(self.root, 'hal')
+        with self.assertRaisesRegex(pcrb.InvalidParameter, 'found `locl`'):
+            pcrb.problems(self.root, kind='locl')
+
+    def test_a_run_is_a_folder_like_the_servers_and_goes_on(self):
+        seen = []
+
+        def method(problem):
+            seen.append(problem.id)
+            if len(seen) == 2:
+                raise KeyboardInterrupt
+            return self.ideal(problem)
+        with self.assertRaises(KeyboardInterrupt):
+            pcrb.run(method, self.root, self.folder)
+        results = pcrb.run(method, self.root, self.folder)
+        self.assertEqual(seen[1], seen[2])
+        self.assertEqual(results['outcome'].tolist(), ['replied', 'replied'])
+        self.assertLess(results['error'].max(), 1e-5)
+        self.assertEqual(pcrb.read_run_info(self.folder)['under_test'], 'method')
+        self.assertIn('total', (self.folder / 'summary.txt').read_text())
+        self.assertIn('problem_id', (self.folder / 'results.csv').read_text())
+        with self.assertRaisesRegex(pcrb.StoreError, 'subset'):
+            pcrb.run(method, self.root, self.folder, subset=1)
+
+    def test_what_is_no_pose_is_a_failed_problem_with_its_reason(self):
+        def method(problem):
+            if problem.id == '10':
+                raise ValueError('too few points')
+        results = pcrb.run(method, self.root, self.folder)
+        self.assertEqual(results['outcome'].tolist(), ['failed', 'failed'])
+        self.assertEqual(results['reason'].tolist(), ['ValueError: too few points', 'the function returned None'])
+        np.testing.assert_array_equal(results['error'], results['initial_misalignment'])
+
+    def test_an_answer_after_the_time_limit_counts_as_none(self):
+        results = pcrb.run(self.ideal, self.root, self.folder, time_limit=1e-9)
+        self.assertEqual(results['outcome'].tolist(), ['timed_out', 'timed_out'])
+
+    def test_results_of_others_are_written_as_a_file_for_the_report(self):
+        path = self.root / 'mine.csv'
+        pcrb.write_results(path, [{'sequence': 'hall', 'kind': 'local', 'problem_id': '10', 'error': 0.1, 'runtime_s': np.nan,
+                                   'reason': 'a, "b"'}])
+        self.assertEqual(path.read_text().splitlines(), ['sequence,kind,problem_id,reason,error,runtime_s',
+                                                         'hall,local,10,"a, ""b""",0.1,'])
+        with self.assertRaisesRegex(pcrb.InvalidParameter, 'column `eror`'):
+            pcrb.write_results(path, [{'eror': 1.0}])
+        with self.assertRaisesRegex(pcrb.InvalidParameter, 'row 0: found no problem_id'):
+            pcrb.write_results(path, [{'sequence': 'hall', 'kind': 'local', 'error': 0.1}])
+
+    def test_sequences_and_methods_are_those_of_all_programs(self):
+        self.assertEqual(pcrb.find_sequences(self.root), [('rooms', 'hall', 'local', str(self.root / 'rooms' / 'hall_local.txt'))])
+        known = [('rooms', 'hall'), ('rooms', 'attic')]
+        self.assertEqual(pcrb.select_sequences(known, ['rooms/attic']), [('rooms', 'attic')])
+        with self.assertRaises(pcrb.InvalidParameter):
+            pcrb.select_sequences(known, ['yard'])
+        self.assertIn('gicp', pcrb.methods())
+
+
 class DocumentationTest(unittest.TestCase):
     def test_every_public_function_says_what_it_returns_and_raises(self):
         for name in pcrb.__all__:
