@@ -35,7 +35,7 @@ def roles(name):
     topics = {}
     for display in manager['Displays']:
         topic = display.get('Topic') or display.get('Marker Topic')
-        if topic and not display['Class'].startswith('rviz/Pose'):
+        if topic and display['Enabled'] and not display['Class'].startswith('rviz/Pose'):
             topics[topic] = color(display['Color']) if 'Color' in display else WHITE
     return color(manager['Global Options']['Background Color']), topics
 

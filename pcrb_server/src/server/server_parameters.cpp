@@ -26,7 +26,7 @@ const ParameterTable kServerParameters{
     {"shard", "0/1", "", "i/N: the i-th of N disjoint parts"},
     {"", "", "", "Protocol"},
     {"presentation", "registration", "registration|localization", "form of the problems"},
-    {"time_limit", "10", "s", "time from a source's publication to its reply"},
+    {"time_limit", "30", "s", "time from a source's publication to its reply"},
     {"handshake", "ready", "ready|none",
      "client of a problem, the caller of the service `ready` or any subscriber of `problem`"},
     {"connect_limit", "60", "s", "time to wait for the first client"},
