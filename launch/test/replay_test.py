@@ -246,6 +246,25 @@ class ReplayTest(TestCase):
         replay.interrupt()
         self.assert_ends_well(replay)
 
+    def test_shows_the_problems_that_are_asked_for_and_steps_back(self):
+        first, second = (problem.id for problem in self.data.of('local', 'hall')[:2])
+        self.replay(root=self.data.root, sequence='hall', problems='local', problem=f'{second} {first}')
+        shown = [self.step('problem')[0].problem_id for _ in range(2)]
+        self.assertEqual(set(shown), {first, second})
+        for expected in reversed(shown):
+            before = len(self.viewer.messages['problem'])
+            self.call('back')
+            wait_until(lambda: len(self.viewer.messages['problem']) > before, 'the scene before comes')
+            self.assertEqual(self.viewer.of('problem')[-1].problem_id, shown[shown.index(expected) - 1])
+
+    def test_one_problem_of_a_run_is_shown_with_the_truth(self):
+        row = max(self.run_of_guesses('registration').values(), key=lambda row: row['error'])
+        self.replay(run=self.path('run'), problems=row['kind'], sequences=f"{row['data_set']}/{row['sequence']}",
+                    problem=row['problem_id'])
+        truth, markers = self.step('source_true', 'markers')
+        self.assert_points(truth, self.data.source_points(self.data.by_id(row['problem_id'])))
+        self.assertEqual(float(markers.markers[0].text.split()[1]), float(f"{row['error']:.3g}"))
+
     def test_stays_for_who_comes_late(self):
         replay = self.replay(root=self.data.root, sequence='hall', autostart=True, keep_alive=True)
         replay.wait_for_output('at the end')
@@ -268,6 +287,7 @@ class ReplayTest(TestCase):
                           '3 mistakes', 'found `hal`', '~rate', '~colour: no parameter')
         self.assert_fails(self.replay(root=self.data.root), '~sequence or ~run')
         self.assert_fails(self.replay(run=self.path('nothing')), 'nothing')
+        self.assert_fails(self.replay(root=self.data.root, sequence='hall', problems='local', problem='x7'), 'no problem x7')
 
 
 if __name__ == '__main__':

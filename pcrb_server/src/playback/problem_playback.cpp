@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/playback/playback.hpp"
 #include "playback/scene_parts.hpp"
@@ -34,6 +36,7 @@ class ProblemPlayback : public Playback {
         problems_(makeRunPlan(options.configuration.selection).problems),
         poser_(options.configuration.selection.root, options.configuration.presentation, secret_),
         frames_(options.map_frame) {
+    keepChosen();
     if (!options.publish_ground_truth) problems_ = inServingOrder(problems_, secret_);
     poser_.checkFrames(problems_);
   }
@@ -43,8 +46,8 @@ class ProblemPlayback : public Playback {
   Scene next(const ros::Time& stamp) override {
     if (position_ == problems_.size()) position_ = 0;
     const PlannedProblem& planned = problems_[position_];
-    const bool is_new_target =
-        position_ == 0 || problems_[position_ - 1].target_path != planned.target_path;
+    const bool is_new_target = position_ == 0 || shown_ != planned.target_path;
+    shown_ = planned.target_path;
     const PosedProblem posed = poser_.pose(planned);
     Scene scene = problemScene(posed, stamp, is_new_target,
                                names_.source(options_.configuration.presentation), frames_);
@@ -56,7 +59,21 @@ class ProblemPlayback : public Playback {
     return scene;
   }
 
+  void seek(std::size_t position) override { position_ = position; }
+
  private:
+  void keepChosen() {
+    if (options_.ids.empty()) return;
+    const auto is_unwanted = [&](const PlannedProblem& planned) {
+      return !contains(options_.ids, planned.key.problem_id);
+    };
+    problems_.erase(std::remove_if(problems_.begin(), problems_.end(), is_unwanted),
+                    problems_.end());
+    if (!problems_.empty()) return;
+    throw InvalidParameter("problem: found no problem " + joined(options_.ids) +
+                           " in the file of the sequence, expected an id of its first column");
+  }
+
   void announce(Scene& scene, const PosedProblem& posed) const {
     Announcement announcement;
     announcement.problem_id = options_.publish_ground_truth
@@ -76,6 +93,7 @@ class ProblemPlayback : public Playback {
     scene.clouds.emplace_back(
         topics::kSourceTrue,
         toMessage(posed.source->cloud, Transform::Identity(), makeHeader(names_.map, scene.stamp)));
+    scene.caption = captionOf(posed);
     addText(scene, posed, posed.P, describeProblem(posed), names_.map);
     if (options_.configuration.presentation.isLocalization()) {
       // Where the guess puts the scan: so it is seen as perturbed in this presentation, too.
@@ -91,6 +109,7 @@ class ProblemPlayback : public Playback {
   ProblemPoser poser_;
   SceneFrames frames_;
   ros::Time target_stamp_;
+  std::string shown_;  ///< path of the target in the last scene
   std::size_t position_ = 0;
 };
 

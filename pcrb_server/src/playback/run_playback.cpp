@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/run/results_store.hpp"
@@ -18,13 +19,16 @@ namespace {
 
 std::vector<Result> selectResults(std::vector<Result> results, const RunOptions& options) {
   const auto is_unwanted = [&](const Result& result) {
+    if (options.kind && result.key.kind != *options.kind) return true;
+    if (!options.ids.empty() && !contains(options.ids, result.key.problem_id)) return true;
     return std::none_of(options.sequences.begin(), options.sequences.end(), [&](const auto& word) {
       return namesSequence(word, {result.key.data_set, result.key.sequence});
     });
   };
   results.erase(std::remove_if(results.begin(), results.end(), is_unwanted), results.end());
   if (results.empty()) {
-    throw StoreError(options.run + ": the run has no result of the sequences that were asked for");
+    throw StoreError(options.run +
+                     ": the run has no result of the sequences and problems that were asked for");
   }
   std::stable_sort(results.begin(), results.end(), [&](const Result& left, const Result& right) {
     if (options.order == RunOptions::Order::kWorst) return left.error > right.error;
@@ -104,10 +108,16 @@ class RunPlayback : public Playback {
     scene.title = posed.planned->subject() + ": " + errorText(result);
     scene.clouds.emplace_back(topics::kSourceAligned, toMessage(posed.source->cloud, T_residual,
                                                                 makeHeader(frames_.map(), stamp)));
+    scene.clouds.emplace_back(
+        topics::kSourceTrue,
+        toMessage(posed.source->cloud, Transform::Identity(), makeHeader(frames_.map(), stamp)));
+    scene.caption = captionOf(posed) + resultCaption(result);
     addText(scene, posed, T_residual, errorText(result), frames_.map());
     ++position_;
     return scene;
   }
+
+  void seek(std::size_t position) override { position_ = position; }
 
  private:
   const PlannedProblem& plannedOf(const Result& result) const {
@@ -115,6 +125,14 @@ class RunPlayback : public Playback {
     if (found != problems_.end()) return found->second;
     throw StoreError(selection_.root + ": has no problem " + result.key.problem_id + " of " +
                      result.key.data_set + "/" + result.key.sequence + ", which the run has");
+  }
+
+  std::string resultCaption(const Result& result) const {
+    std::ostringstream text;
+    text.precision(3);
+    text << "error: " << result.error << "\noutcome: " << toString(result.outcome)
+         << "\nmethod: " << info_.configuration.under_test << "\n";
+    return text.str();
   }
 
   void requireSame(const LoadedCloud& cloud) const {

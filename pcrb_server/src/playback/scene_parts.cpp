@@ -1,5 +1,8 @@
 #include "playback/scene_parts.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "ros/drawing.hpp"
@@ -32,6 +35,22 @@ Scene problemScene(const PosedProblem& posed, const ros::Time& stamp, bool show_
       topics::kSource,
       toMessage(posed.source->cloud, posed.presentation.applied, makeHeader(source_frame, stamp)));
   return scene;
+}
+
+std::string captionOf(const PosedProblem& posed) {
+  const ProblemKey& key = posed.planned->key;
+  std::ostringstream text;
+  text.precision(3);
+  text << "problem: " << key.problem_id << "\nsequence: " << key.data_set << "/" << key.sequence
+       << "\nkind: " << toString(key.kind) << "\nsource: " << posed.planned->problem.source
+       << "\ntarget: " << posed.planned->problem.target
+       << "\noverlap: " << posed.planned->problem.overlap << "\ninitial: " << posed.initial.error
+       << "\n";
+  return text.str();
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 void addText(Scene& scene, const PosedProblem& posed, const Transform& T_map_source,

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/run/problem_poser.hpp"
@@ -35,6 +36,11 @@ class SceneFrames {
 /// @param show_target   false where the scene before has shown it.
 Scene problemScene(const PosedProblem& posed, const ros::Time& stamp, bool show_target,
                    const std::string& source_frame, SceneFrames& frames);
+
+/// Rows of what is known of a problem before anybody has answered it.
+std::string captionOf(const PosedProblem& posed);
+
+bool contains(const std::vector<std::string>& words, const std::string& word);
 
 /// Adds a text above where T_map_source puts the source's centroid.
 void addText(Scene& scene, const PosedProblem& posed, const Transform& T_map_source,

@@ -86,6 +86,9 @@ class SequencePlayback : public Playback {
     Scene scene;
     scene.name = names_[position_];
     scene.title = pathOf(options_).filename().string() + " " + scene.name;
+    scene.caption = "sequence: " + pathOf(options_).filename().string() + "\nscan: " + scene.name +
+                    "\nnumber: " + std::to_string(position_ + 1) + " of " +
+                    std::to_string(names_.size()) + "\n";
     std::optional<Transform> sensor;  // T_map_sensor, where it is known
     if (read_cloud.hasViewpoint()) {
       sensor = inMap(read_cloud.viewpoint);
@@ -100,6 +103,12 @@ class SequencePlayback : public Playback {
     }
     ++position_;
     return scene;
+  }
+
+  /// The map grows anew up to there.
+  void seek(std::size_t position) override {
+    position_ = 0;
+    while (position_ < position) next(ros::Time(0, 1));
   }
 
  private:

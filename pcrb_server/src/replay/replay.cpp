@@ -1,5 +1,7 @@
 #include "replay/replay.hpp"
 
+#include <std_msgs/String.h>
+
 #include <algorithm>
 #include <iostream>
 #include <set>
@@ -12,6 +14,8 @@ namespace pcrb {
 namespace {
 
 constexpr std::uint32_t kSceneQueue = 10;
+constexpr const char* kBack = "back";        // service, beside kStep
+constexpr const char* kCaption = "caption";  // topic: std_msgs/String, rows `name: value`
 
 }  // namespace
 
@@ -23,6 +27,11 @@ void ScenePublisher::publish(const Scene& scene, const ros::Time& due) {
     if (!publisher) publisher = node_.advertise<Message>(topic, kSceneQueue, is_latched);
     publisher.publish(message);
   });
+  if (due != scene.stamp) return;
+  if (!caption_) caption_ = node_.advertise<std_msgs::String>(kCaption, 1, true);
+  std_msgs::String caption;
+  caption.data = scene.caption;
+  caption_.publish(caption);
 }
 
 Replay::Replay(const ReplayParameters& parameters, ShutdownRequest& shutdown)
@@ -64,13 +73,21 @@ void Replay::offerServices() {
     is_paused_ = true;
     ++steps_;
   });
+  offer(kBack, "paused, one scene back", [this] {
+    is_paused_ = true;
+    ++steps_back_;
+  });
 }
 
 bool Replay::waitForTurn() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!is_over_) {
-    if (is_paused_ && steps_ > 0) {
-      --steps_;
+    if (is_paused_ && steps_ + steps_back_ > 0) {
+      if (steps_back_ > 0) {
+        goBack();
+      } else {
+        --steps_;
+      }
       due_ = Clock::now();
       return true;
     }
@@ -86,12 +103,19 @@ bool Replay::waitForTurn() {
   return false;
 }
 
+/// Makes the scene before the one that is shown the next one; before the first one is the last one.
+void Replay::goBack() {
+  --steps_back_;
+  const std::size_t size = playback_->size();
+  next_ = (next_ + 2 * size - 2) % size;
+  playback_->seek(next_);
+}
+
 void Replay::run() {
   if (!parameters_.autostart) std::cout << describeWaitForStart() << std::endl;
   while (waitForTurn()) {
     show();
-    const bool is_last = shown_ % playback_->size() == 0;
-    if (!is_last || parameters_.loop) continue;
+    if (next_ > 0 || parameters_.loop) continue;
     if (!parameters_.keep_alive) break;
     pauseAtEnd();
   }
@@ -114,9 +138,8 @@ void Replay::show() {
     publisher_.publish(scene, due);
     reached = due;
   }
-  std::cout << shown_ % playback_->size() + 1 << "/" << playback_->size() << " " << scene.title
-            << std::endl;
-  ++shown_;
+  std::cout << next_ + 1 << "/" << playback_->size() << " " << scene.title << std::endl;
+  next_ = (next_ + 1) % playback_->size();
   if (!parameters_.stamps_file.empty()) appendScan(stamps_, scene);
 }
 

@@ -56,6 +56,7 @@ class ScenePublisher {
  private:
   ros::NodeHandle node_;
   std::map<std::string, ros::Publisher> publishers_;
+  ros::Publisher caption_;
 };
 
 /// Shows a playback at its rate, on the steady clock; can be paused, stepped and looped.
@@ -74,6 +75,7 @@ class Replay {
 
   void offerServices();
   bool waitForTurn();
+  void goBack();
   void show();
   void waitFor(double seconds);
   void pauseAtEnd();
@@ -87,12 +89,13 @@ class Replay {
   std::condition_variable changed_;
   bool is_paused_;
   bool is_over_ = false;
-  std::size_t steps_ = 0;  ///< scenes that were asked for while paused
+  std::size_t steps_ = 0;       ///< scenes that were asked for while paused
+  std::size_t steps_back_ = 0;  ///< of those before the one that is shown
 
   Clock::time_point due_;
   ros::Time last_stamp_;
-  std::size_t shown_ = 0;
-  std::string stamps_;  ///< text of the stamps file
+  std::size_t next_ = 0;  ///< position of the scene that is shown next
+  std::string stamps_;    ///< text of the stamps file
 
   ros::NodeHandle node_;
   ros::CallbackQueue service_queue_;

@@ -11,7 +11,9 @@ const ParameterTable kReplayParameters{
     {"", "", "", "What is shown"},
     {"root", "", "", "folder in the common layout; with run: instead of the one that the run used"},
     {"sequence", "", "", "sequence, or data_set/sequence"},
-    {"problems", "", "local|global", "kind of the sequence's problems, shown instead of its scans"},
+    {"problems", "", "local|global",
+     "kind of the sequence's problems, shown instead of its scans; of a run: of the problems"},
+    {"problem", "", "", "official ids of problems, separated by blanks; empty = all"},
     {"run", "", "", "folder of a run, shown instead of a sequence"},
     {"rate", "2", "Hz", "scenes per second"},
     {"loop", "false", "", "begin again after the last scene"},
@@ -105,13 +107,17 @@ void readProblems(NodeParameters& reader, const std::string& root, const std::st
   selection.root = root;
   selection.sequences = {word};
   selection.kinds = {kindFromString(kind)};
+  parameters.problems.ids = reader.words("problem");
   parameters.problems.map_frame = reader.string("map_frame");
 }
 
-void readRun(NodeParameters& reader, const std::string& root, ReplayParameters& parameters) {
+void readRun(NodeParameters& reader, const std::string& root, const std::string& kind,
+             ReplayParameters& parameters) {
   parameters.subject = ReplayParameters::Subject::kRun;
   parameters.run.root = root;
   parameters.run.sequences = reader.words("sequences");
+  if (!kind.empty()) parameters.run.kind = kindFromString(kind);
+  parameters.run.ids = reader.words("problem");
   const std::string order = reader.choice("order");
   if (order == "worst") parameters.run.order = RunOptions::Order::kWorst;
   if (order == "best") parameters.run.order = RunOptions::Order::kBest;
@@ -130,7 +136,7 @@ ReplayParameters readReplayParameters() {
   if (sequence.empty() == parameters.run.run.empty()) {
     reader.addMistake("~sequence or ~run: expected one of the two");
   } else if (!parameters.run.run.empty()) {
-    readRun(reader, root, parameters);
+    readRun(reader, root, kind, parameters);
   } else if (root.empty()) {
     reader.addMistake("~root: must be given with ~sequence");
   } else if (!kind.empty()) {

@@ -27,6 +27,9 @@ class Playback {
   /// @param stamp  of all its messages; later than that of the scene before.
   /// @throws Error  if a cloud cannot be read or shown.
   virtual Scene next(const ros::Time& stamp) = 0;
+
+  /// Makes the scene of a position, below size(), the next one.
+  virtual void seek(std::size_t position) = 0;
 };
 
 /// A sequence: its clouds in natural order, where the sensor was, and a map.
@@ -55,6 +58,7 @@ std::unique_ptr<Playback> playSequence(const SequenceOptions& options);
 
 /// Registration problems.
 struct ProblemsOptions {
+  std::vector<std::string> ids;    ///< official ids of those that are shown; empty = all
   RunConfiguration configuration;  ///< which problems, and how they are posed
   /// false: the same that a client of the server sees, in a secret order.
   bool publish_ground_truth = true;
@@ -68,7 +72,7 @@ struct ProblemsOptions {
   }
 };
 
-/// @throws InvalidParameter  if there is no secret where one is needed.
+/// @throws InvalidParameter  if there is no secret where one is needed, or no problem of the ids.
 std::unique_ptr<Playback> playProblems(const ProblemsOptions& options);
 
 /// A finished or interrupted run: the results that it has.
@@ -78,6 +82,8 @@ struct RunOptions {
   std::string run;
   std::string root;                    ///< empty = the one that the run used
   std::vector<std::string> sequences;  ///< as `sequences` of benchmark_server
+  std::optional<Kind> kind;            ///< none = both
+  std::vector<std::string> ids;        ///< official ids of problems; empty = all
   Order order = Order::kFinished;
   std::string map_frame = "map";
 };

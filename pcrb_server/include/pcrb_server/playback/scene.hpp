@@ -22,9 +22,10 @@ namespace pcrb {
 
 /// All messages of one moment of a replay: what `replay` publishes and the bag tools write.
 struct Scene {
-  std::string title;  ///< for people: which scan or problem this is
-  std::string name;   ///< file name of the scan, or official id of the problem
-  ros::Time stamp;    ///< of every message but static transforms, which hold for all times
+  std::string title;    ///< for people: which scan or problem this is
+  std::string name;     ///< file name of the scan, or official id of the problem
+  std::string caption;  ///< for people: what is known of it, rows `name: value`
+  ros::Time stamp;      ///< of every message but static transforms, which hold for all times
   Eigen::Vector3d local_origin = Eigen::Vector3d::Zero();  ///< m: p_dataset = p_map + local_origin
 
   tf2_msgs::TFMessage transforms;
