@@ -1,19 +1,22 @@
-"""The page's charts, each made from the numbers of report.json."""
+"""The report's charts, each drawn once from the numbers of report.json: the page and the figures take the same drawing."""
 import math
 
-from svg import (BOTTOM, LEFT, RIGHT, TOP, WIDTH, Chart, Linear, Logarithmic, coordinate, error, escape, interval, short,
-                 tip)
+from drawing import BOTTOM, LEFT, RIGHT, TOP, WIDTH, Chart, Drawing, Ink, Linear, Logarithmic, error, interval, short
 
-# Okabe and Ito's colours, which people tell apart who do not see all of them.
-COLORS = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8C6D31', '#7F7F7F']
-NEUTRAL = '#7c8aa0'
+# Colours that people tell apart who do not see all of them (after Okabe and Ito), each with a contrast of 3 : 1 at least against a
+# white and a dark ground; shapes and dashes for those who see none.
+COLORS = ['#0072B2', '#D55E00', '#009B70', '#B8659A', '#A87900', '#2E8FC9', '#8C6D31', '#7F7F7F']
+SHAPES = ['circle', 'square', 'triangle', 'diamond', 'wedge', 'cross', 'hexagon', 'bow']
+DASHES = ['', '9 3', '3 2.5', '9 3 2 3', '6 2', '2 4', '12 4', '5 5']
+NEUTRAL = '#74839a'
 SMALLEST = 1e-4  # errors below it are drawn there on a logarithmic axis
 
 
-def color_of(section):
-    """Colours of the methods, and of the baseline, which is none."""
-    colors = {method['method']: COLORS[i % len(COLORS)] for i, method in enumerate(section['methods'])}
-    return {**colors, **({section['baseline']: NEUTRAL} if section['baseline'] else {})}
+def inks_of(section):
+    """How the methods are drawn, and the baseline, which is none."""
+    inks = {method['method']: Ink(COLORS[i % 8], SHAPES[i % 8], DASHES[(i + i // 8) % 8])
+            for i, method in enumerate(section['methods'])}
+    return {**inks, **({section['baseline']: Ink(NEUTRAL, 'bow', '6 4')} if section['baseline'] else {})}
 
 
 def rows_of(table):
@@ -38,67 +41,57 @@ def error_axis(rows, floors=()):
     return Logarithmic(min(values) / 1.4, max(values) * 1.4)
 
 
-def median_dots(scores, colors, floors):
-    """Dots with intervals on a logarithmic axis, a group per sequence. Coordinates along the error are percentages: the
-    chart fills any width while the text keeps its size."""
+def median_dots(scores, inks, floors, width=WIDTH):
+    """Dots with intervals on a logarithmic axis, a group per sequence."""
     groups = medians_of(scores)
     scale = error_axis([row for rows in groups.values() for row in rows], floors.values())
-    parts, y = [], 6
+    height = 40 + sum(26 + 17 * len(rows) for rows in groups.values())
+    chart = Drawing(height, 'medians of the error', width)
+
+    def x(value):
+        return 10 + (width - 30) * scale(value)
+    for tick in scale.ticks(6):
+        chart.line((x(tick), 0), (x(tick), height - 34), 'grid')
+        chart.text(x(tick), height - 20, short(tick), 'tick')
+    chart.text(width / 2, height - 4, 'median error, logarithmic', 'name')
+    y = 6
     for name, rows in groups.items():
-        parts.append(f'<text x="0" y="{y + 12}" class="group">{escape(name)}</text>')
+        chart.text(0, y + 12, name, 'group', 'start')
         y += 18
-        top = y
-        for row in rows:
-            parts.append(median_dot(row, colors[row['method']], scale, y))
-            y += 17
         if name in floors:
-            x = coordinate(percent(scale, floors[name]))
-            parts.append(f'<line x1="{x}%" x2="{x}%" y1="{top - 2}" y2="{y}" class="floor">'
-                         f'{tip(f"{name}: floor of the ground truth {error(floors[name])}")}</line>')
+            chart.line((x(floors[name]), y - 2), (x(floors[name]), y + 17 * len(rows)), 'floor',
+                       title=f'{name}: floor of the ground truth {error(floors[name])}')
+        for row in rows:
+            draw_median(chart, row, inks[row['method']], x, y + 7)
+            y += 17
         y += 8
-    ticks = ''.join(error_tick(scale, tick, y) for tick in scale.ticks(6))
-    return (f'<svg class="bars" width="100%" height="{y + 34}" role="img" aria-label="medians of the error">{ticks}'
-            + ''.join(parts) + f'<text x="50%" y="{y + 30}" text-anchor="middle" class="name">median error, logarithmic</text></svg>')
+    return chart
 
 
-def percent(scale, value):
-    return 1 + 97 * scale(value)
-
-
-def error_tick(scale, tick, y):
-    x = coordinate(percent(scale, tick))
-    return (f'<line x1="{x}%" x2="{x}%" y1="0" y2="{y}" class="grid"/>'
-            f'<text x="{x}%" y="{y + 14}" text-anchor="middle" class="tick">{short(tick)}</text>')
-
-
-def median_dot(row, color, scale, y):
+def draw_median(chart, row, ink, x, y):
     title = (f'{row["method"]}, {row["selection"]}: median {error(row["median"])}, '
              + (f'95 % interval {interval(row["low"], row["high"])}' if row['low'] is not None else 'too few pairs for an interval')
              + f', {row["problems"]} problems in {row["pairs"]} pairs')
-    text = ''
     if row['low'] is not None:
-        a, b = (coordinate(percent(scale, row[side])) for side in ('low', 'high'))
-        text = f'<line x1="{a}%" x2="{b}%" y1="{y + 7}" y2="{y + 7}" class="interval" style="stroke:{color}">{tip(title)}</line>'
-    return text + (f'<circle cx="{coordinate(percent(scale, row["median"]))}%" cy="{y + 7}" r="5" class="dot" style="fill:{color}">'
-                   f'{tip(title)}</circle>')
+        chart.line((x(row['low']), y), (x(row['high']), y), 'interval', ink.color, title, row['method'])
+    chart.symbol((x(row['median']), y), 5, 'dot', ink, title, row['method'])
 
 
-def solved_curves(section, colors):
+def solved_curves(section, inks):
     charts = section['charts']
     thresholds = charts['thresholds']
     chart = Chart(Logarithmic(thresholds[0], thresholds[-1]), Linear(0, 1), 'error threshold', 'fraction solved',
                   label='fraction of problems solved over the error threshold')
     for curve in charts['solved']:
-        kind = 'curve baseline' if curve['method'] == section['baseline'] else 'curve'
-        chart.curve(list(zip(thresholds, curve['fractions'])), colors[curve['method']], kind)
+        chart.curve(list(zip(thresholds, curve['fractions'])), inks[curve['method']], method=curve['method'])
     for curve in charts['solved']:
         for threshold, fraction in list(zip(thresholds, curve['fractions']))[::2]:
-            chart.dot(threshold, fraction, colors[curve['method']],
-                      f'{curve["method"]}: {100 * fraction:.1f} % with an error of at most {threshold:.3g}', 'touch')
-    return chart.svg()
+            chart.touch(threshold, fraction, inks[curve['method']].color,
+                        f'{curve["method"]}: {100 * fraction:.1f} % with an error of at most {threshold:.3g}', curve['method'])
+    return chart
 
 
-def binned(panel, colors, x_name):
+def binned(panel, inks, x_name):
     """Medians of the error over a property, the quartiles as a band."""
     bins = [b for method in panel['methods'] for b in method['bins']]
     top = max(max(b['q75'] for b in bins), 10 * SMALLEST)
@@ -106,39 +99,38 @@ def binned(panel, colors, x_name):
     chart = Chart(Linear(min(b['low'] for b in bins), max(b['high'] for b in bins)), Logarithmic(low / 1.2, top * 1.2),
                   x_name, 'error', label=f'error over {x_name}, {panel["selection"]}')
     for method in panel['methods']:
-        color = colors[method['method']]
+        name, ink = method['method'], inks[method['method']]
         middle = [((b['low'] + b['high']) / 2, b) for b in method['bins']]
-        chart.band([(x, b['q25']) for x, b in middle], [(x, b['q75']) for x, b in middle], color)
-        chart.curve([(x, b['median']) for x, b in middle], color)
+        chart.band([(x, b['q25']) for x, b in middle], [(x, b['q75']) for x, b in middle], ink.color, name)
+        chart.curve([(x, b['median']) for x, b in middle], ink, method=name)
         for x, b in middle:
-            chart.dot(x, b['median'], color, f'{method["method"]}: median {error(b["median"])}, quartiles {error(b["q25"])} '
-                      f'to {error(b["q75"])}, {b["count"]} problems with {x_name} {error(b["low"])} to {error(b["high"])}')
-    return chart.svg()
+            chart.dot(x, b['median'], ink, f'{name}: median {error(b["median"])}, quartiles {error(b["q25"])} '
+                      f'to {error(b["q75"])}, {b["count"]} problems with {x_name} {error(b["low"])} to {error(b["high"])}', name)
+    return chart
 
 
 def gaussian(x, mean, deviation):
     return math.exp(-0.5 * ((x - mean) / deviation) ** 2) / (deviation * math.sqrt(2 * math.pi))
 
 
-def histogram(method, color, name):
+def histogram(method, ink, name):
     counts, width = method['counts'], method['max'] / len(method['counts'])
     total = sum(counts) + method['above']
     chart = Chart(Linear(0, method['max']), Linear(0, 1.08 * max(counts + [1]), True), 'error', 'problems', 200,
                   f'histogram of the error, {method["method"]}, {name}')
     for i, count in enumerate(counts):
         if count:
-            chart.box((i * width, 0), ((i + 1) * width, count), color,
+            chart.box((i * width, 0), ((i + 1) * width, count), ink.color,
                       f'{error(i * width)} to {error((i + 1) * width)}: {count} problems ({100 * count / total:.1f} %)')
     if method['stddev']:
         steps = [method['max'] * i / 80 for i in range(81)]
-        chart.curve([(x, total * width * gaussian(x, method['mean'], method['stddev'])) for x in steps],
-                    'currentColor', 'gaussian')
+        chart.polyline([chart.at(x, total * width * gaussian(x, method['mean'], method['stddev'])) for x in steps], 'gaussian', None)
     if method['median'] is not None:
-        bottom, top = chart.at(method['median'], 0), chart.at(method['median'], chart.y.high)
-        chart.line(bottom, top, 'median', title=f'median {error(method["median"])}')
+        chart.line(chart.at(method['median'], 0), chart.at(method['median'], chart.y.high), 'median',
+                   title=f'median {error(method["median"])}')
     if method['above']:
         chart.text(WIDTH - RIGHT, TOP + 10, f'{method["above"]} beyond ▸', 'tick', 'end')
-    return chart.svg()
+    return chart
 
 
 def overlap_edges(panel):
@@ -153,11 +145,11 @@ def overlaps(panel):
                   f'overlaps of the pairs, {panel["selection"]}')
     for i, pairs in enumerate(panel['counts']):
         if pairs:
-            chart.box((edges[i], 0), (edges[i + 1], pairs), 'var(--neutral)',
+            chart.box((edges[i], 0), (edges[i + 1], pairs), NEUTRAL,
                       f'overlap {edges[i]:.3f} to {edges[i + 1]:.3f}: {pairs} pairs')
     chart.line(chart.at(panel['median'], 0), chart.at(panel['median'], chart.y.high), 'median',
                title=f'median {panel["median"]:.3f}')
-    return chart.svg()
+    return chart
 
 
 class Rows(Chart):
@@ -177,53 +169,108 @@ class Rows(Chart):
     def middle(self, i):
         return TOP + 19 * (i + 0.5)
 
-    def mark_cut(self, low, high, y):
+    def mark_cut(self, low, high, y, method):
         """An arrow with its value for each end of a whisker that leaves the axis."""
         if low < self.x.low:
-            self.text(self.left, y + 4, f'◂ {error(low)}', 'beyond', 'start')
+            self.text(self.left, y + 4, f'◂ {error(low)}', 'beyond', 'start', method)
         if high > self.x.high:
-            self.text(WIDTH - RIGHT, y + 4, f'{error(high)} ▸', 'beyond', 'end')
+            self.text(self.width - RIGHT, y + 4, f'{error(high)} ▸', 'beyond', 'end', method)
 
     def draw(self, whiskers, box, median):
         for i, row in enumerate(self.rows):
-            title, color = row['title'], row['color']
+            title, ink, method = row['title'], row['ink'], row['method']
             y, level = self.middle(i), len(self.rows) - i - 0.5
             x = [self.at(row[q], 0)[0] for q in whiskers]
-            self.line((x[0], y), (x[1], y), 'whisker', color, title)
-            self.mark_cut(row[whiskers[0]], row[whiskers[1]], y)
+            self.line((x[0], y), (x[1], y), 'whisker', ink.color, title, method)
+            self.mark_cut(row[whiskers[0]], row[whiskers[1]], y, method)
             if box:
-                self.box((row[box[0]], level - 0.3), (row[box[1]], level + 0.3), color, title, 'quartiles')
-            self.dot(row[median], level, color, title)
-        return self.svg()
+                self.box((row[box[0]], level - 0.3), (row[box[1]], level + 0.3), ink.color, title, 'quartiles', method)
+            self.dot(row[median], level, ink, title, method)
+        return self
 
 
-def components(table, colors, axes, unit):
+def components(table, inks, axes, unit):
     rows = []
     for row in rows_of(table):
         if row['selection'] == 'total' and row['axis'] in axes:
-            row['label'], row['color'] = row['axis'], colors[row['method']]
+            row['label'], row['ink'] = row['axis'], inks[row['method']]
             row['title'] = (f'{row["method"]}, {row["axis"]}: median {error(row["median"])} {unit}, q25 to q75 {error(row["q25"])} '
                             f'to {error(row["q75"])}, q05 to q95 {error(row["q05"])} to {error(row["q95"])}')
             rows.append(row)
     rows.sort(key=lambda row: axes.index(row['axis']))
-    for before, row in zip(rows, rows[1:]):
-        if row['axis'] == before['axis']:
-            row['label'] = ''
+    first = {}
+    for row in rows:
+        row['label'] = '' if first.setdefault(row['axis'], row) is not row else row['axis']
     widest = max([4 * max(abs(row['q25']), abs(row['q75'])) for row in rows] + [1e-6])
     return Rows(Linear(-widest, widest), f'error in {unit}', rows, f'errors in {unit}').draw(
         ('q05', 'q95'), ('q25', 'q75'), 'median')
 
 
-def latencies(table, colors):
+def latencies(table, inks):
     rows = []
     for row in rows_of(table):
         if row['selection'] == 'total' and row['median'] is not None:
-            row['label'], row['color'] = row['method'], colors[row['method']]
+            row['label'], row['ink'] = row['method'], inks[row['method']]
             row['title'] = (f'{row["method"]}: median {1000 * row["median"]:.1f} ms, q05 to q95 {1000 * row["q05"]:.1f} to '
                             f'{1000 * row["q95"]:.1f} ms, max {1000 * row["max"]:.0f} ms, {row["replies"]} replies')
             rows.append(row)
     if not rows:
-        return ''
+        return None
     low, high = min(row['q05'] for row in rows), max(row['q95'] for row in rows)
     return Rows(Logarithmic(max(low, 1e-5) / 1.3, max(high, 2e-5) * 1.3), 's from source to reply', rows, 'latency').draw(
         ('q05', 'q95'), None, 'median')
+
+
+def error_over_time(points, inks):
+    """Medians of error and time, and the front of the methods that no other one beats in both."""
+    errors = [value for p in points for value in (p['low'], p['median'], p['high']) if value is not None]
+    chart = Chart(Logarithmic(min(p['q05'] for p in points) / 1.5, max(p['q95'] for p in points) * 1.5),
+                  Logarithmic(max(SMALLEST, min(errors)) / 1.5, max(SMALLEST, *errors) * 1.5), 's from source to reply', 'median error',
+                  label='error against time')
+    front = sorted((p for p in points if p['is_front']), key=lambda p: p['time'])
+    stairs = []
+    for before, after in zip(front, front[1:]):
+        stairs += [(before['time'], before['median']), (after['time'], before['median'])]
+    stairs += [(front[-1]['time'], front[-1]['median']), (chart.x.high, front[-1]['median'])]
+    chart.polyline([chart.at(*p) for p in [(front[0]['time'], chart.y.high), *stairs]], 'front', None)
+    for p in points:
+        ink, name = inks[p['method']], p['method']
+        title = (f'{name}: median error {error(p["median"])}, median time {error(p["time"])} s (q05 to q95 {error(p["q05"])} to '
+                 f'{error(p["q95"])} s)' + (', on the front' if p['is_front'] else ''))
+        chart.line(chart.at(p['q05'], p['median']), chart.at(p['q95'], p['median']), 'whisker', ink.color, title, name)
+        if p['low'] is not None:
+            chart.line(chart.at(p['time'], p['low']), chart.at(p['time'], p['high']), 'whisker', ink.color, title, name)
+        chart.dot(p['time'], p['median'], ink, title, name, 5)
+        x, y = chart.at(p['time'], p['median'])
+        is_right = x > chart.width * 0.75
+        chart.text(x + (-8 if is_right else 8), y - 7, name, 'tick', 'end' if is_right else 'start', name)
+    return chart
+
+
+def ranking(numbers, inks):
+    """A critical-difference diagram: mean ranks, bars over neighbours that no test tells apart."""
+    methods, cliques = numbers['methods'], numbers['cliques']
+    count, half = len(methods), (len(methods) + 1) // 2
+    left = right = min(190, 68 + 8 * max(len(m['method']) for m in methods))
+    axis_y = 36 + 9 * len(cliques)
+    chart = Drawing(axis_y + 24 + 20 * half, 'mean ranks of the methods')
+    scale = Linear(1, count)
+
+    def x(rank):
+        return left + scale(rank) * (WIDTH - left - right)
+    chart.line((left, axis_y), (WIDTH - right, axis_y), 'axis')
+    for tick in range(1, count + 1):
+        chart.line((x(tick), axis_y - 5), (x(tick), axis_y), 'axis')
+        chart.text(x(tick), 14, str(tick), 'tick')
+    ranks = {m['method']: m['rank'] for m in methods}
+    for i, clique in enumerate(cliques):
+        y = axis_y - 12 - 9 * (len(cliques) - 1 - i)
+        chart.line((x(ranks[clique[0]]) - 4, y), (x(ranks[clique[-1]]) + 4, y), 'clique', title='no difference shown: ' + ', '.join(clique))
+    for i, m in enumerate(methods):
+        is_left = i < half
+        y = axis_y + 22 + 20 * (i if is_left else count - 1 - i)
+        end, side = (left - 6, 'end') if is_left else (WIDTH - right + 6, 'start')
+        title = f'{m["method"]}: mean rank {m["rank"]:.2f} over {numbers["pairs"]} pairs of clouds'
+        chart.polyline([(x(m['rank']), axis_y), (x(m['rank']), y), (end, y)], 'stem', inks[m['method']].color, title, m['method'])
+        chart.text(end + (-4 if is_left else 4), y + 4, f'{m["method"]}  {m["rank"]:.2f}', 'label', side, m['method'])
+    return chart

@@ -21,12 +21,12 @@ def write(path, text):
     os.replace(temporary, path)
 
 
-def draw_page(report):
+def draw_page(report, figures):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(str(HERE)), autoescape=True, trim_blocks=True,
                                      undefined=jinja2.StrictUndefined)
     environment.filters.update(page.FILTERS)
     static = {name: page.trusted((HERE / f'page.{name}').read_text(encoding='utf-8')) for name in ('css', 'js')}
-    sections = [page.view(section) for section in report['sections']]
+    sections = [page.view(section, figures.get(section['kind'], [])) for section in report['sections']]
     return environment.get_template('page.html.j2').render(
         title=report['title'], version=report['version'], sections=sections,
         trackers=tracking.view(report['trackers']), **static)
@@ -35,10 +35,12 @@ def draw_page(report):
 def main():
     folder = pathlib.Path(sys.argv[1])
     report = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
-    write(folder / 'index.html', draw_page(report))
+    listed = {}
     if '--no-figures' not in sys.argv[2:]:
         import figures  # matplotlib takes its time
-        figures.draw(report, folder / 'figures')
+        text, listed = figures.draw(report, folder)
+        write(folder / 'figures.tex', text)
+    write(folder / 'index.html', draw_page(report, listed))
 
 
 if __name__ == '__main__':

@@ -1,23 +1,55 @@
-"""The figures in the paper's style, as PNG and PDF, from the numbers in report.json. The same numbers give the same
-bytes: the files hold no dates."""
-import math
+"""The page's charts as PNG and PDF for a paper, with legends and captions: the same drawings, put on paper by matplotlib. The same
+numbers give the same bytes: the files hold no dates."""
 import os
 
 import matplotlib
 
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
+from matplotlib.lines import Line2D  # noqa: E402
+from matplotlib.patches import Circle, Polygon  # noqa: E402
 
 import charts  # noqa: E402
+from drawing import WIDTH, Drawing  # noqa: E402
 
-STYLE = {'font.size': 8, 'axes.titlesize': 8, 'axes.linewidth': 0.6, 'axes.spines.top': False, 'axes.spines.right': False,
-         'axes.axisbelow': True, 'axes.grid': True, 'grid.linewidth': 0.4, 'grid.color': '#dddddd', 'legend.frameon': False,
-         'figure.constrained_layout.use': True, 'figure.dpi': 200, 'pdf.fonttype': 42, 'svg.hashsalt': 'pcrb'}
-COLUMN = 7.16  # inches, both columns of a page
+POINTS = 7.16 / (2 * WIDTH) * 72  # per unit: two charts are as wide as both columns of a page, 7.16 inches
+INK, SOFT, RULE = '#1d2430', '#4a5360', '#dde2e9'
+# What page.css says of these classes: colour, width in units, dash, opacity, size of letters.
+STYLE = {'grid': {'color': RULE, 'width': 1}, 'axis': {'color': SOFT, 'width': 1}, 'whisker': {'width': 1.6}, 'interval': {'width': 2.6,
+         'alpha': 0.6}, 'floor': {'color': '#c0392b', 'width': 2}, 'median': {'color': INK, 'width': 1.8, 'dash': '5 3'},
+         'curve': {'width': 2.2}, 'gaussian': {'color': INK, 'width': 1.4}, 'front': {'color': SOFT, 'width': 1.4, 'dash': '5 4'},
+         'band': {'alpha': 0.13}, 'quartiles': {'alpha': 0.55}, 'clique': {'color': INK, 'width': 5}, 'stem': {'width': 1.6}}
+LETTERS = {'tick': 13, 'name': 14, 'group': 14, 'beyond': 12, 'title': 15, 'label': 14}
 
 
-def save(figure, folder, name):
+def put(axes, name, points, style, zorder):
+    """A mark on axes that are the drawing's units, y downwards."""
+    kind = STYLE.get(style['kind'], {})
+    color = style.get('color') or kind.get('color', INK)
+    if name in ('line', 'polyline'):
+        dash = style.get('dash') or kind.get('dash')
+        pattern = (0, [float(part) / kind.get('width', 1.5) for part in dash.split()]) if dash else '-'
+        axes.add_line(Line2D(*zip(*points), color=color, linewidth=POINTS * kind.get('width', 1.5), alpha=kind.get('alpha'),
+                             linestyle=pattern, solid_capstyle='round', solid_joinstyle='round', zorder=zorder))
+    elif name == 'polygon':
+        axes.add_patch(Polygon(points, closed=True, facecolor=color, edgecolor='none', alpha=kind.get('alpha'), zorder=zorder))
+    elif name == 'circle':
+        axes.add_patch(Circle(points[0], style['radius'], facecolor=color, edgecolor='none', zorder=zorder))
+    else:
+        axes.text(*points[0], style['text'], size=POINTS * LETTERS.get(style['kind'], 13), color=INK if style['kind'] != 'tick' else SOFT,
+                  ha={'start': 'left', 'middle': 'center', 'end': 'right'}[style['anchor']], va='baseline',
+                  rotation=90 if style['upright'] else 0, weight='bold' if style['kind'] in ('group', 'title') else 'normal', zorder=zorder)
+
+
+def save(drawing, folder, name):
     folder.mkdir(parents=True, exist_ok=True)
+    figure = plt.figure(figsize=(drawing.width * POINTS / 72, drawing.height * POINTS / 72))
+    axes = figure.add_axes([0, 0, 1, 1])
+    axes.set_axis_off()
+    axes.set(xlim=(0, drawing.width), ylim=(drawing.height, 0))
+    for zorder, mark in enumerate(drawing.marks):  # later marks lie on earlier ones, whatever they are
+        if mark[2]['kind'] != 'touch':
+            put(axes, *mark, zorder)
     for extension, metadata in (('png', {'Software': None}), ('pdf', {'CreationDate': None, 'Producer': None, 'Creator': None})):
         temporary = folder / f'.{name}.{extension}'
         figure.savefig(temporary, format=extension, metadata=metadata)
@@ -25,141 +57,116 @@ def save(figure, folder, name):
     plt.close(figure)
 
 
-def grid(count, columns, height):
-    """As many axes as panels, in rows; those that stay empty are switched off."""
-    columns = min(columns, count)
-    rows = math.ceil(count / columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(COLUMN * columns / 4 if columns < 4 else COLUMN, height * rows),
-                                squeeze=False)
-    flat = list(axes.flat)
-    for axis in flat[count:]:
-        axis.set_axis_off()
-    return figure, flat[:count]
+def legend(inks, width):
+    """Rows of a swatch and a name."""
+    x, y, places = 8, 16, []
+    for method, ink in inks.items():
+        size = 40 + 9 * len(method)
+        if x > 8 and x + size > width:
+            x, y = 8, y + 22
+        places.append((x, y, method, ink))
+        x += size
+    drawing = Drawing(y + 12, width=width)
+    for x, y, method, ink in places:
+        drawing.polyline([(x, y - 5), (x + 22, y - 5)], 'curve', ink.color, dash=ink.dash)
+        drawing.symbol((x + 11, y - 5), 4.5, 'dot', ink)
+        drawing.text(x + 28, y, method, 'label', 'start')
+    return drawing
 
 
-def label_all(figure, axes, x_name, y_name):
-    """One name for all axes; matplotlib before 3.4 has none of a figure's, there the outer axes take it."""
-    if hasattr(figure, 'supxlabel'):
-        figure.supxlabel(x_name, fontsize=8)
-        figure.supylabel(y_name, fontsize=8)
-    else:
-        axes[0].set_ylabel(y_name)
-        axes[-1].set_xlabel(x_name)
+def sheet(panels, inks=None, columns=2):
+    """Drawings with their titles (name or empty) beside and below each other, a legend above."""
+    columns = min(columns, len(panels))
+    width = max(drawing.width for _, drawing in panels)
+    top = legend(inks, columns * width) if inks else None
+    gap = 24 if any(name for name, _ in panels) else 4
+    rows = [panels[i:i + columns] for i in range(0, len(panels), columns)]
+    height = (top.height if top else 0) + sum(gap + max(drawing.height for _, drawing in row) for row in rows)
+    whole = Drawing(height, width=columns * width)
+    y = 0
+    if top:
+        whole.include(top, 0, 0)
+        y = top.height
+    for row in rows:
+        for i, (name, drawing) in enumerate(row):
+            if name:
+                whole.text(i * width + width / 2, y + 16, name, 'title')
+            whole.include(drawing, i * width, y + gap)
+        y += gap + max(drawing.height for _, drawing in row)
+    return whole
 
 
-def medians(section, colors):
-    """Dots with their intervals on a logarithmic axis."""
-    groups = charts.medians_of(charts.rows_of(section['tables']['scores']))
-    figure, axis = plt.subplots(figsize=(COLUMN, 2.6))
-    for i, (method, color) in enumerate(colors.items()):
-        for j, rows in enumerate(groups.values()):
-            row = next((row for row in rows if row['method'] == method), None)
-            if row is None:
-                continue
-            x = j - 0.4 + 0.8 * (i + 0.5) / len(colors)
-            if row['low'] is not None:
-                axis.plot([x, x], [max(row[side], charts.SMALLEST) for side in ('low', 'high')], color=color, linewidth=1)
-            axis.plot([x], [max(row['median'], charts.SMALLEST)], color=color, marker='o', markersize=3)
-    axis.set_xticks(range(len(groups)))
-    axis.set_xticklabels(groups, rotation=35, ha='right')
-    axis.grid(axis='x', visible=False)
-    axis.set(yscale='log', ylabel='median error')
-    axis.legend(handles=handles_of(colors), ncol=len(colors), loc='lower center', bbox_to_anchor=(0.5, 1.0))
-    return figure
+def in_file_name(name):
+    """A name without what LaTeX reads otherwise, byte by byte as report_writer.cpp has it."""
+    return ''.join(chr(c) if chr(c).isalnum() and c < 128 or chr(c) in '.-' else '_' for c in name.encode('utf-8', 'surrogateescape'))
 
 
-def handles_of(colors):
-    return [plt.Line2D([], [], color=color, marker='o', markersize=3, linewidth=1, label=method) for method, color in colors.items()]
+def figures_of(section):
+    """(name, drawing, caption) of each figure of a section."""
+    kind, numbers, tables, inks = section['kind'], section['charts'], section['tables'], charts.inks_of(section)
+    methods = {name: ink for name, ink in inks.items() if name != section['baseline']}
+    scores = charts.rows_of(tables['scores'])
+    floors = {row['sequence']: row['floor'] for row in charts.rows_of(tables['ground_truth'])
+              if row['floor'] is not None} if tables.get('ground_truth') else {}
+    yield ('medians', sheet([('', charts.median_dots(scores, inks, floors, 2 * WIDTH))], inks),
+           f'Median error of the {kind} problems of each sequence, with 95 % bootstrap intervals over pairs of clouds.'
+           + (' Grey: the error of the initial guesses.' if section['baseline'] else '')
+           + (' Red: the accuracy of the ground truth.' if floors else ''))
+    yield ('solved', sheet([('', charts.solved_curves(section, inks))], inks),
+           f'Fraction of the {kind} problems that are solved, over the error up to which one counts as solved.')
+    for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap'), ('over_scans', 'scan')):
+        if numbers[name]:
+            yield (name, sheet([(p['selection'], charts.binned(p, inks, x_name)) for p in numbers[name]], methods),
+                   f'Error over the {x_name}, {kind} problems: medians of bins that hold equally many problems, and their quartiles.')
+    for method, ink in methods.items():
+        panels = [(p['selection'], charts.histogram(m, ink, p['selection'])) for p in numbers['histograms'] for m in p['methods']
+                  if m['method'] == method]
+        yield ('histograms_' + in_file_name(method), sheet(panels),
+               f'Errors of {method} on the {kind} problems. Dashed: the median; curve: the normal distribution of the same mean and '
+               'standard deviation.')
+    if numbers['overlaps']:
+        yield ('overlaps', sheet([(p['selection'], charts.overlaps(p)) for p in numbers['overlaps']]),
+               f'Overlap of the pairs of clouds of the {kind} problems. Dashed: the median.')
+    if tables.get('components'):
+        yield ('components', sheet([('translation', charts.components(tables['components'], inks, ['x', 'y', 'z'], 'm')),
+                                    ('rotation', charts.components(tables['components'], inks, ['roll', 'pitch', 'yaw'], 'degrees'))],
+                                   methods), f'Errors along and about each axis, answered {kind} problems: median, quartiles, and the '
+               'quantiles 0.05 to 0.95.')
+    latency = charts.latencies(tables['runtimes'], inks) if tables.get('runtimes') else None
+    if latency:
+        yield ('latencies', sheet([('', latency)]), f'Time from a source to its reply, {kind} problems: median, quantiles 0.05 to 0.95.')
+    if numbers['times']:
+        yield ('times', sheet([('', charts.error_over_time(numbers['times'], inks))]),
+               f'Median error against median time to a reply, {kind} problems. Dashed: the front of the methods that no other one beats '
+               'in both.')
+    if numbers['ranking']:
+        yield ('ranking', sheet([('', charts.ranking(numbers['ranking'], inks))]),
+               f'Mean ranks over {numbers["ranking"]["pairs"]} pairs of clouds, {kind} problems. Bars join methods between which '
+               "Wilcoxon's signed-rank test shows no difference after Holm's correction.")
 
 
-def solved(section, colors):
-    figure, axis = plt.subplots(figsize=(COLUMN / 2, 2.4))
-    for curve in section['charts']['solved']:
-        axis.plot(section['charts']['thresholds'], curve['fractions'], color=colors[curve['method']], label=curve['method'],
-                  linestyle='--' if curve['method'] == section['baseline'] else '-')
-    axis.set(xscale='log', xlabel='error threshold', ylabel='fraction solved', ylim=(0, 1.02))
-    axis.legend()
-    return figure
+ENVIRONMENT = '''\\begin{figure}[p]
+\\centering
+\\includegraphics[width=%s\\linewidth,height=0.85\\textheight,keepaspectratio]{figures/%s.pdf}
+\\caption{%s}
+\\label{fig:pcrb-%s}
+\\end{figure}
+
+'''
 
 
-def binned(panels, colors, x_name):
-    figure, axes = grid(len(panels), 4, 1.9)
-    for axis, panel in zip(axes, panels):
-        for method in panel['methods']:
-            color = colors[method['method']]
-            x = [(b['low'] + b['high']) / 2 for b in method['bins']]
-            low, middle, high = ([max(b[q], charts.SMALLEST) for b in method['bins']] for q in ('q25', 'median', 'q75'))
-            axis.fill_between(x, low, high, color=color, alpha=0.15, linewidth=0)
-            axis.plot(x, middle, color=color, marker='.', label=method['method'])
-        axis.set(yscale='log', title=panel['selection'], xlabel=x_name)
-    axes[0].set_ylabel('error')
-    axes[0].legend(fontsize=6)
-    return figure
-
-
-def histograms(panels, method, color):
-    found = [(panel['selection'], m) for panel in panels for m in panel['methods'] if m['method'] == method]
-    figure, axes = grid(len(found), 4, 1.45)
-    for axis, (name, histogram) in zip(axes, found):
-        counts, width = histogram['counts'], histogram['max'] / len(histogram['counts'])
-        axis.bar([(i + 0.5) * width for i in range(len(counts))], counts, width, color=color)
-        axis.axvline(histogram['median'], color='black', linewidth=0.8, linestyle='--')
-        if histogram['stddev']:
-            total = sum(counts) + histogram['above']
-            x = [histogram['max'] * i / 100 for i in range(101)]
-            axis.plot(x, [total * width * charts.gaussian(v, histogram['mean'], histogram['stddev']) for v in x],
-                      color='#444444', linewidth=0.8)
-        axis.set(title=name, xlim=(0, histogram['max']))
-    label_all(figure, axes, 'error', 'problems')
-    return figure
-
-
-def overlaps(panels):
-    figure, axes = grid(len(panels), 4, 1.4)
-    for axis, panel in zip(axes, panels):
-        edges = charts.overlap_edges(panel)
-        axis.bar(edges[:-1], panel['counts'], edges[1] - edges[0], align='edge', color='#7c8aa0')
-        axis.set(title=panel['selection'], xlim=(0, 1))
-    label_all(figure, axes, 'overlap', 'pairs')
-    return figure
-
-
-def components(table, colors):
-    rows = [row for row in charts.rows_of(table) if row['selection'] == 'total']
-    figure, axes = plt.subplots(1, 2, figsize=(COLUMN, 2.2))
-    for axis, names, unit in zip(axes, (['x', 'y', 'z'], ['roll', 'pitch', 'yaw']), ('m', 'degrees')):
-        shown = sorted((r for r in rows if r['axis'] in names), key=lambda r: names.index(r['axis']))
-        boxes = [{'med': r['median'], 'q1': r['q25'], 'q3': r['q75'], 'whislo': r['q05'], 'whishi': r['q95']} for r in shown]
-        drawn = axis.bxp(boxes, showfliers=False, patch_artist=True, medianprops={'color': 'black'})
-        groups = [[i + 1 for i, r in enumerate(shown) if r['axis'] == name] for name in names]
-        axis.set_xticks([sum(group) / len(group) for group in groups if group])
-        axis.set_xticklabels([n for n, group in zip(names, groups) if group])
-        for patch, row in zip(drawn['boxes'], shown):
-            patch.set_facecolor(colors[row['method']])
-        axis.set_ylabel(f'error ({unit})')
-    figure.suptitle(' ')  # keeps room for the legend, which the layout does not see
-    figure.legend(handles=handles_of({row['method']: colors[row['method']] for row in rows}), ncol=4, loc='upper center')
-    return figure
+def latex(text):
+    return ''.join('\\' + c if c in '_%&#$' else c for c in text)
 
 
 def draw(report, folder):
-    with plt.rc_context(STYLE):
+    """All figures, and figures.tex with a caption for each; their names and captions by kind."""
+    text, listed = '% All figures, each to be cut out, or all by \\input\n% \\usepackage{graphicx}\n\n', {}
+    with plt.rc_context({'pdf.fonttype': 42, 'figure.dpi': 200, 'savefig.dpi': 200}):
         for section in report['sections']:
-            draw_section(section, folder)
-
-
-def draw_section(section, folder):
-    kind, numbers, tables = section['kind'], section['charts'], section['tables']
-    colors = charts.color_of(section)
-    save(medians(section, colors), folder, f'{kind}_medians')
-    save(solved(section, colors), folder, f'{kind}_solved')
-    for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap'), ('over_scans', 'scan')):
-        if numbers[name]:
-            save(binned(numbers[name], colors, x_name), folder, f'{kind}_{name}')
-    for method in section['methods']:
-        name = method['method']
-        save(histograms(numbers['histograms'], name, colors[name]), folder, f'{kind}_histograms_{name}')
-    if numbers['overlaps']:
-        save(overlaps(numbers['overlaps']), folder, f'{kind}_overlaps')
-    if tables.get('components'):
-        save(components(tables['components'], colors), folder, f'{kind}_components')
+            for name, drawing, caption in figures_of(section):
+                name = f'{section["kind"]}_{name}'
+                save(drawing, folder / 'figures', name)
+                text += ENVIRONMENT % ('' if drawing.width > WIDTH else '0.6', name, latex(caption), name.replace('_', '-'))
+                listed.setdefault(section['kind'], []).append((name, caption))
+    return text, listed

@@ -4,13 +4,12 @@ from markupsafe import Markup
 import calibration
 import charts
 import series
-from svg import error, interval
+from drawing import WIDTH, error, interval
 
 PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('audit', 'audit'), ('solved', 'solved'),
          ('dependence', 'dependence'), ('distributions', 'distributions'), ('series', 'repeats and sweeps'), ('axes', 'axes'),
          ('covariances', 'covariances'), ('times', 'times'), ('settling', 'settling'), ('overlap', 'overlap'),
-         ('sequences', 'sequences'), ('problems', 'problems'), ('published', 'published')]
-TOO_FEW = 'too few pairs to tell'  # the verdict of a test that could not reject
+         ('sequences', 'sequences'), ('problems', 'worst problems'), ('published', 'published'), ('figures', 'figures')]
 HEADINGS = {'sequence': 'Sequences', 'data set': 'Data sets', 'group': 'By characteristic', 'total': 'All problems'}
 
 
@@ -59,43 +58,15 @@ def cards_of(section, scores):
             yield {**row, 'latency': latencies.get(row['method']), 'missing': max(missing, 0)}
 
 
-def worse_than(comparisons, selection):
-    """Which method was shown to be worse than which: pairs (worse, better)."""
-    return {(row['b'] if row['better'] == row['a'] else row['a'], row['better'])
-            for row in comparisons if row['selection'] == selection and row['better']}
-
-
-def marks_of(known, selection, comparisons):
-    """The best of a row's methods, and those that the test does not show to be worse, where it could show that: all have
-    the same problems, which are of a sequence or all, and enough pairs of clouds."""
-    tested = [row for row in comparisons if row['selection'] == selection['name']]
-    is_tested = selection['level'] == 'sequence' or selection['name'] == 'total'
-    if len(known) < 2 or selection['shared'] < selection['problems'] or not is_tested:
-        return {}
-    best = min(known, key=lambda c: c['median'])['method']
-    if any(best in (row['a'], row['b']) and row['verdict'] == TOO_FEW for row in tested):
-        return {}
-    worse = worse_than(comparisons, selection['name'])
-    return {best: 'best', **{c['method']: 'tie' for c in known if c['method'] != best and (c['method'], best) not in worse}}
-
-
-def pivot_of(section, scores, comparisons, published):
-    """Rows: selections, a heading before each level. Cells: a method's median, whether it is among the best."""
-    names = [method['method'] for method in section['methods']]
-    by_cell = {(row['selection'], row['level'], row['method']): row for row in scores}
-    level = None
-    for selection in section['selections']:
-        if selection['level'] != level:
-            level = selection['level']
-            yield {'heading': HEADINGS[level]}
-        cells = [by_cell.get((selection['name'], level, name)) for name in names]
-        known = [c for c in cells if c]
-        marks = marks_of(known, selection, comparisons)
-        for c in known:
-            c['mark'] = marks.get(c['method'], '')
-        untouched = by_cell.get((selection['name'], level, section['baseline']))
-        yield {'name': selection['name'], 'cells': cells, 'untouched': untouched, 'shared': shared_of(selection),
-               'published': [published.get((name, selection['published'])) for name in section['published_columns']]}
+def pivot_of(section, published):
+    """The rows of the pivot by level, each with the published medians that may stand beside it."""
+    levels = []
+    for selection, row in zip(section['selections'], section['pivot']):
+        if not levels or levels[-1]['level'] != row['level']:
+            levels.append({'level': row['level'], 'heading': HEADINGS[row['level']], 'rows': []})
+        levels[-1]['rows'].append({**row, 'shared': shared_of(selection), 'published': [
+            published.get((name, selection['published'])) for name in section['published_columns']]})
+    return levels
 
 
 def shared_of(selection):
@@ -118,6 +89,7 @@ def published_columns(published, own):
 
 
 def verdicts_of(comparisons):
+    """Sentences on the tests over all problems."""
     for row in comparisons:
         if row['selection'] == 'total':
             other = row['b'] if row['better'] == row['a'] else row['a']
@@ -133,30 +105,47 @@ def audit_of(section, rows):
             'live': [m['method'] for m in runs if m['info'].get('results') == 'live']}
 
 
+def matrix_of(methods, comparisons):
+    """What the tests over all problems say of each method (a row) against each other one (a column)."""
+    found = {}
+    for row in comparisons:
+        if row['selection'] == 'total':
+            for a, b in ((row['a'], row['b']), (row['b'], row['a'])):
+                verdict = ('better' if row['better'] == a else 'worse') if row['better'] else ''
+                found[a, b] = {'verdict': verdict, 'p': probability(row['corrected p']), 'pairs': row['pairs'],
+                               'text': verdict or ('?' if 'too few' in row['verdict'] else '=')}
+    return [{'method': a, 'cells': [None if a == b else found.get((a, b), {'verdict': '', 'text': '–', 'p': '', 'pairs': 0})
+                                    for b in methods]} for a in methods]
+
+
+def svg(drawing, kind=''):
+    return trusted(drawing.svg(kind)) if drawing else None
+
+
 def drawn(panels, draw):
-    return [{'name': panel['selection'], 'svg': trusted(draw(panel))} for panel in panels]
+    return [{'name': panel['selection'], 'svg': svg(draw(panel))} for panel in panels]
 
 
-def dependence_of(section, colors):
+def dependence_of(section, inks):
     numbers, views = section['charts'], []
     for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap')):
-        for chart in drawn(numbers[name], lambda panel, x=x_name: charts.binned(panel, colors, x)):
+        for chart in drawn(numbers[name], lambda panel, x=x_name: charts.binned(panel, inks, x)):
             views.append({**chart, 'name': f'{chart["name"]}: error over {x_name}'})
     return views
 
 
-def histograms_of(section, colors):
+def histograms_of(section, inks):
     views = {'total': [], 'sequences': []}
     for panel in section['charts']['histograms']:
         for method in panel['methods']:
             is_total = panel['selection'] == 'total'
             views['total' if is_total else 'sequences'].append({
                 'name': method['method'] if is_total else f'{panel["selection"]}, {method["method"]}',
-                'svg': trusted(charts.histogram(method, colors[method['method']], panel['selection']))})
+                'method': method['method'], 'svg': svg(charts.histogram(method, inks[method['method']], panel['selection']))})
     return views
 
 
-def parts_of(section):
+def parts_of(section, figures):
     """What the page's bar of links leads to: the parts that this section has."""
     absent = {part for part, table in (('differences', 'comparisons'), ('audit', 'audit'), ('axes', 'components'),
                                          ('covariances', 'covariances'), ('times', 'runtimes'), ('settling', 'keeping_up'))
@@ -165,17 +154,19 @@ def parts_of(section):
         absent.add('series')
     if not section['charts']['overlaps']:
         absent.add('overlap')
+    if not figures:
+        absent.add('figures')
     return [{'id': part, 'name': name} for part, name in PARTS if part not in absent]
 
 
-def view(section):
-    tables = section['tables']
+def view(section, figures):
+    tables, numbers = section['tables'], section['charts']
     for name in ('comparisons', 'audit', 'recall', 'runtimes', 'settling', 'keeping_up', 'components', 'ground_truth', 'covariances',
                  'covariance_axes', 'trials', 'sweeps'):
         tables.setdefault(name, None)
     present = {name: table for name, table in tables.items() if table}
     section['tables'] = present
-    colors = charts.color_of(section)
+    inks = charts.inks_of(section)
     own = [method['method'] for method in section['methods']]
     scores = charts.rows_of(present['scores'])
     comparisons = charts.rows_of(present['comparisons']) if 'comparisons' in present else []
@@ -190,26 +181,30 @@ def view(section):
               if row['floor'] is not None} if 'ground_truth' in present else {}
     section['is_only_kind'] = all(m['planned'] is None or int(m['planned']) >= m['problems'] for m in section['methods'])
     made = {
-        'colors': colors, 'floors': floors, 'parts': parts_of(section), 'tables': tables,
+        'colors': {name: ink.color for name, ink in inks.items()}, 'floors': floors, 'parts': parts_of(section, figures),
+        'tables': tables, 'figures': figures,
         'cards': list(cards_of(section, scores)),
-        'bars': trusted(charts.median_dots(scores, colors, floors)),
-        'pivot': list(pivot_of(section, scores, comparisons, published)),
+        'bars': [svg(charts.median_dots(scores, inks, floors, width), kind) for width, kind in ((2 * WIDTH, 'wide'), (WIDTH, 'narrow'))],
+        'levels': pivot_of(section, published),
         'verdicts': list(verdicts_of(comparisons)),
-        'audit': audit_of(section, charts.rows_of(present['audit'])) if 'audit' in present else None,
-        'solved': trusted(charts.solved_curves(section, colors)),
-        'dependence': dependence_of(section, colors),
-        'histograms': histograms_of(section, colors),
-        'overlaps': drawn(section['charts']['overlaps'], charts.overlaps),
+        'matrix': matrix_of(own, comparisons) if len(own) > 2 else [],
+        'ranking': svg(charts.ranking(numbers['ranking'], inks)) if numbers['ranking'] else None,
+        'solved': svg(charts.solved_curves(section, inks)),
+        'dependence': dependence_of(section, inks),
+        'histograms': histograms_of(section, inks),
+        'overlaps': drawn(numbers['overlaps'], charts.overlaps),
         'recall_totals': only_totals(present['recall']) if 'recall' in present else None,
         'runtime_totals': only_totals(present['runtimes']) if 'runtimes' in present else None,
-        'over_scans': drawn(section['charts']['over_scans'], lambda panel: charts.binned(panel, colors, 'scan')),
+        'latencies': svg(charts.latencies(present['runtimes'], inks)) if 'runtimes' in present else None,
+        'over_time': svg(charts.error_over_time(numbers['times'], inks)) if numbers['times'] else None,
+        'audit': audit_of(section, charts.rows_of(present['audit'])) if 'audit' in present else None,
+        'over_scans': drawn(numbers['over_scans'], lambda panel: charts.binned(panel, inks, 'scan')),
         'covariance_totals': only_totals(present['covariances']) if 'covariances' in present else None,
-        'sweep_charts': [{**chart, 'svg': trusted(chart['svg'])} for chart in series.sweeps(present['sweeps'])]
+        'sweep_charts': [{**chart, 'svg': svg(chart['svg'])} for chart in series.sweeps(present['sweeps'])]
                         if 'sweeps' in present else [],
-        'calibration': trusted(calibration.curves(section['charts']['calibration'], colors)),
-        'latencies': trusted(charts.latencies(present['runtimes'], colors)) if 'runtimes' in present else None,
+        'calibration': svg(calibration.curves(numbers['calibration'], inks)),
     }
     if 'components' in present:
-        made['translation'] = trusted(charts.components(present['components'], colors, ['x', 'y', 'z'], 'm'))
-        made['rotation'] = trusted(charts.components(present['components'], colors, ['roll', 'pitch', 'yaw'], 'degrees'))
+        made['translation'] = svg(charts.components(present['components'], inks, ['x', 'y', 'z'], 'm'))
+        made['rotation'] = svg(charts.components(present['components'], inks, ['roll', 'pitch', 'yaw'], 'degrees'))
     return {**section, **made}

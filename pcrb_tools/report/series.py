@@ -1,6 +1,6 @@
 """Charts of sweeps: the median error over the values of a parameter."""
 import charts
-from svg import Chart, Linear, Logarithmic, error, interval
+from drawing import Chart, Ink, Linear, Logarithmic, error, interval
 
 
 def sweeps(table):
@@ -21,12 +21,12 @@ def curve(parameter, rows):
     ends = [row[name] for row in rows for name in ('low', 'median', 'high') if row[name] is not None]
     low, high = max(min(ends), charts.SMALLEST), max(max(ends), 2 * charts.SMALLEST)
     chart = Chart(x, Logarithmic(low / 1.3, high * 1.3), parameter, 'median error', label=f'error over {parameter}')
-    color = charts.COLORS[0]
+    ink = Ink(charts.COLORS[0])
     known = [row for row in rows if row['low'] is not None]
     if len(known) > 1:
-        chart.band([(row['value'], row['low']) for row in known], [(row['value'], row['high']) for row in known], color)
-    chart.curve([(row['value'], row['median']) for row in rows], color)
+        chart.band([(row['value'], row['low']) for row in known], [(row['value'], row['high']) for row in known], ink.color)
+    chart.curve([(row['value'], row['median']) for row in rows], ink)
     for row in rows:
         text = f'95 % interval {interval(row["low"], row["high"])}' if row['low'] is not None else 'too few pairs for an interval'
-        chart.dot(row['value'], row['median'], color, f'{parameter} {row["value"]:g}: median {error(row["median"])}, {text}')
-    return chart.svg()
+        chart.dot(row['value'], row['median'], ink, f'{parameter} {row["value"]:g}: median {error(row["median"])}, {text}')
+    return chart

@@ -1,10 +1,13 @@
 #include "report/report_writer.hpp"
 
+#include <cctype>
 #include <filesystem>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
+#include "report/latex.hpp"
+#include "report/pivot.hpp"
 #include "report/published.hpp"
 #include "report/section_tables.hpp"
 
@@ -66,11 +69,21 @@ Json publishedCorrelationsOf(const Section& section) {
 
 /// Of figures.py, behind `<kind>_`; histograms have the method's name behind theirs.
 constexpr const char* kFigures[] = {"medians",    "solved",   "over_misalignment", "over_overlap",
-                                    "over_scans", "overlaps", "components"};
+                                    "over_scans", "overlaps", "components",        "latencies",
+                                    "times",      "ranking"};
+
+/// A name as figures.py has it in that of a file: without what LaTeX reads otherwise.
+std::string inFileName(std::string name) {
+  for (char& c : name) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-';
+    if (!is_plain) c = '_';
+  }
+  return name;
+}
 
 /// Paths below the folder of a report, without those of the files that every report has.
 std::vector<std::string> filesOf(const Json& report) {
-  std::vector<std::string> files;
+  std::vector<std::string> files{"figures.tex"};
   for (const Json& section : report.at("sections")) {
     const std::string kind = section.at("kind");
     for (const auto& table : section.at("tables").items()) {
@@ -78,7 +91,7 @@ std::vector<std::string> filesOf(const Json& report) {
     }
     std::vector<std::string> figures(std::begin(kFigures), std::end(kFigures));
     for (const Json& method : section.at("methods")) {
-      figures.push_back("histograms_" + method.at("method").get<std::string>());
+      figures.push_back("histograms_" + inFileName(method.at("method")));
     }
     for (const std::string& figure : figures) {
       for (const char* extension : {".png", ".pdf"}) {
@@ -104,7 +117,8 @@ ReportWriter::ReportWriter(const ReportOptions& options) : options_(options) {
   json_["version"] = PCRB_VERSION;
   json_["sections"] = Json::array();
   markdown_ = "# " + options.title + "\n\n";
-  latex_ = "% " + options.title + ": tables, each ready for \\input or to be cut out\n\n";
+  latex_ = "% " + options.title +
+           ": tables, each to be cut out, or all by \\input\n% \\usepackage{booktabs}\n\n";
 }
 
 void ReportWriter::addSection(const Section& section, const std::vector<GroundTruth>& accuracies,
@@ -119,12 +133,19 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   json["selections"] = describeSelections(section);
   json["tables"] = Json::object();
   tables_ = &json["tables"];
-  add(scoreTable(section, options_));
-  add(comparisonTable(section));
+  const Table scores = scoreTable(section, options_);
+  const Table comparisons = comparisonTable(section);
+  const Table runtimes = runtimeTable(section);
+  const Pivot pivot = makePivot(section, scores, comparisons);
+  json["pivot"] = toJson(pivot);
+  markdown_ += toMarkdown(pivot);
+  latex_ += toLatex(pivot, kind_);
+  add(scores);
+  add(comparisons);
   add(auditTable(section));
   add(correlationTable(section));
   add(recallTable(section, options_));
-  add(runtimeTable(section));
+  add(runtimes);
   add(settlingTable(section));
   add(keepingUpTable(section));
   add(componentTable(section));
@@ -142,6 +163,9 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   }
   json["published_correlations"] = publishedCorrelationsOf(section);
   json["charts"] = chartsOf(section);
+  json["charts"]["ranking"] = rankingOf(section, comparisons);
+  json["charts"]["times"] = errorsAgainstTimes(scores, runtimes);
+  json["worst"] = worstProblems(section);
   json_["sections"].push_back(std::move(json));
 }
 
@@ -170,7 +194,7 @@ void ReportWriter::add(const Table& table) {
   if (table.rows.empty()) return;
   write("tables/" + kind_ + "_" + table.id + ".csv", toCsv(table));
   markdown_ += toMarkdown(table);
-  latex_ += toLatex(table);
+  latex_ += toLatex(table, kind_);
   (*tables_)[table.id] = toJson(table);
 }
 

@@ -84,6 +84,20 @@ Table sweepTable(const Section& section, const ReportOptions& options);
 /// @param root  folder of the data sets; may be empty.
 Table sequenceTable(const Section& section, const std::string& root);
 
+/// Of three methods and more, what a critical-difference diagram shows: `pairs` of clouds that all
+/// methods have, `methods` with their mean `rank` by the pair's median error, best first, and
+/// `cliques`: neighbours in that order of whom no test shows a difference. Else null.
+/// Source: Demsar, Statistical comparisons of classifiers over multiple data sets, JMLR 2006, with
+/// Wilcoxon's test and Holm's correction in place of Nemenyi's (Benavoli et al., JMLR 2016).
+Json rankingOf(const Section& section, const Table& comparisons);
+
+/// Each method's median error against its median time, whose quantiles are known; `is_front` where
+/// no other method is as fast and as good, and better in either.
+Json errorsAgainstTimes(const Table& scores, const Table& runtimes);
+
+/// The worst problems of each method, with the command that shows exactly that one of a run.
+Json worstProblems(const Section& section);
+
 /// Every problem, worst first.
 Table problemTable(const Section& section);
 

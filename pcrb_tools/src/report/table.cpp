@@ -62,32 +62,6 @@ std::string csvField(const Json& cell) {
   return field;
 }
 
-std::string latexEscaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '\\') {
-      escaped += "\\textbackslash{}";
-    } else if (c == '<' || c == '>') {
-      escaped += std::string("$") + c + "$";
-    } else if (c == '~' || c == '^') {
-      escaped += std::string("\\") + c + "{}";
-    } else {
-      if (std::string("_%&#${}").find(c) != std::string::npos) escaped += '\\';
-      escaped += c;
-    }
-  }
-  return escaped;
-}
-
-std::string markdownEscaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (std::string("|_*<`\\").find(c) != std::string::npos) escaped += '\\';
-    escaped += c == '\n' ? ' ' : c;
-  }
-  return escaped;
-}
-
 template <typename Escape>
 std::string joined(const Table& table, const std::vector<Json>* row, const char* separator,
                    const Escape& escape) {
@@ -101,6 +75,31 @@ std::string joined(const Table& table, const std::vector<Json>* row, const char*
 }
 
 }  // namespace
+
+TableReader::TableReader(const Table& table) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) places_[table.columns[i].name] = i;
+}
+
+std::string TableReader::text(const std::vector<Json>& row, const std::string& column) const {
+  const Json& found = cell(row, column);
+  return found.is_string() ? found.get<std::string>() : std::string();
+}
+
+std::optional<double> TableReader::number(const std::vector<Json>& row,
+                                          const std::string& column) const {
+  const Json& found = cell(row, column);
+  if (!found.is_number()) return std::nullopt;
+  return found.get<double>();
+}
+
+std::string markdownEscaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (std::string("|_*<`\\").find(c) != std::string::npos) escaped += '\\';
+    escaped += c == '\n' ? ' ' : c;
+  }
+  return escaped;
+}
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -139,17 +138,6 @@ std::string toMarkdown(const Table& table) {
     text += "| " + joined(table, &row, " | ", markdownEscaped) + " |\n";
   }
   return text + "\n";
-}
-
-std::string toLatex(const Table& table) {
-  std::string text = "\\begin{table}\n\\centering\n\\caption{" + latexEscaped(table.title) +
-                     "}\n\\label{tab:" + table.id + "}\n\\begin{tabular}{";
-  for (const Column& column : table.columns) text += column.format == Format::kText ? 'l' : 'r';
-  text += "}\n\\hline\n" + joined(table, nullptr, " & ", latexEscaped) + " \\\\\n\\hline\n";
-  for (const auto& row : table.rows) {
-    text += joined(table, &row, " & ", latexEscaped) + " \\\\\n";
-  }
-  return text + "\\hline\n\\end{tabular}\n\\end{table}\n\n";
 }
 
 Json toJson(const Table& table) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,23 @@ struct Table {
   std::vector<std::vector<Json>> rows;
 };
 
+/// Cells of a table's rows by the names of their columns.
+class TableReader {
+ public:
+  explicit TableReader(const Table& table);
+
+  const Json& cell(const std::vector<Json>& row, const std::string& column) const {
+    return row.at(places_.at(column));
+  }
+
+  /// Empty where there is no value.
+  std::string text(const std::vector<Json>& row, const std::string& column) const;
+  std::optional<double> number(const std::vector<Json>& row, const std::string& column) const;
+
+ private:
+  std::map<std::string, std::size_t> places_;
+};
+
 /// A finite number, else null.
 Json number(double value);
 
@@ -32,9 +51,10 @@ Json number(double value);
 /// value.
 std::string cellText(const Json& cell, Format format);
 
+std::string markdownEscaped(const std::string& text);
+
 std::string toCsv(const Table& table);       ///< header and rows, RFC 4180
 std::string toMarkdown(const Table& table);  ///< title, note, table
-std::string toLatex(const Table& table);     ///< a `tabular` with its caption; needs no package
 Json toJson(const Table& table);
 
 }  // namespace pcrb_tools

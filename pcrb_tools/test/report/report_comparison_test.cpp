@@ -4,6 +4,7 @@
 
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "report/table.hpp"
 #include "support/report_fixture.hpp"
 
 namespace pcrb_tools {
@@ -57,7 +58,8 @@ TEST_F(ReportComparisonTest, MarksTheBestOnlyWhereAllMethodsHaveTheSameProblems)
   addImport("part", 20, [](std::size_t) { return 1.0; });
   std::string text = page();
   EXPECT_FALSE(has(text, "class=\"best\""));
-  EXPECT_TRUE(has(text, "<td>plain<small>20 of 100 shared</small></td>"));
+  EXPECT_TRUE(
+      has(text, "<th scope=\"row\" class=\"text\">plain<small>20 of 100 shared</small></th>"));
   EXPECT_TRUE(has(text, "The methods have different problems (20 of 100 shared)"));
   EXPECT_TRUE(has(text, "full is better than part"));
   EXPECT_TRUE(has(read(options_.output + "/report.md"), "all share 20 of 100 in plain"));
@@ -76,8 +78,10 @@ TEST_F(ReportComparisonTest, PutsAllPublishedMethodsOfTheKindBesideAMethodOfTheU
   addImport("ppcr", 20, [](std::size_t) { return 0.2; });
   const std::string text = page();
   EXPECT_TRUE(has(text,
-                  "<th>mine</th><th>ppcr</th><th>ppcr, published</th><th>icp, published</th>"
-                  "<th>gicp, published</th><th>ndt, published</th></tr>"));
+                  "<th scope=\"col\">mine</th><th scope=\"col\">ppcr</th>"
+                  "<th scope=\"col\">ppcr, published</th><th scope=\"col\">icp, published</th>"
+                  "<th scope=\"col\">gicp, published</th>"
+                  "<th scope=\"col\">ndt, published</th></tr>"));
   EXPECT_TRUE(has(text, "<td class=\"published\">0.17</td><td class=\"published\">0.40</td>"));
   EXPECT_TRUE(has(text, "ndt 0.87 against misalignment"));  // Table 8
   EXPECT_FALSE(has(text, "teaser, published"));
@@ -104,7 +108,7 @@ TEST_F(ReportComparisonTest,
           "4215528471000 a b 0.5 1 0 0 0 0 1 0 0 0 0 1 0\n");
   options_.root = folder_.file("root");
   options_.imports = {addFile("mine_plain_local.csv", "id,error\n4215528471000,0.1\n")};
-  EXPECT_TRUE(has(page(), "<th>icp, published</th>"));
+  EXPECT_TRUE(has(page(), "<th scope=\"col\">icp, published</th>"));
   addFile(file + ".yaml",
           "tool: sample_problems\noutput_blake2b: " + pcrb::fileHash(folder_.file(file)) + "\n");
   EXPECT_FALSE(has(page(), ", published</th>"));
@@ -136,12 +140,45 @@ TEST_F(ReportComparisonTest, GivesNoIntervalNoMarkAndNoVerdictForFewerPairsThanA
   text = page();
   EXPECT_TRUE(has(text, "class=\"best\""));
   EXPECT_TRUE(has(text, "good is better than bad"));
+  EXPECT_TRUE(has(read(options_.output + "/report.md"), "| plain | **0.100** | 1.00 |"));
+  EXPECT_TRUE(has(read(options_.output + "/report.tex"), "plain & \\textbf{0.100} & 1.00"));
+}
+
+TEST_F(ReportComparisonTest, RanksThreeMethodsAndJoinsThoseThatNoTestTellsApart) {
+  addImport("best", 20, [](std::size_t) { return 0.1; });
+  addImport("worse", 20, [](std::size_t i) { return i % 2 == 0 ? 1.0 : 1.1; });
+  addImport("like_it", 20, [](std::size_t i) { return i % 2 == 0 ? 1.1 : 1.0; });
+  const std::string text = page();
+  const Json ranking =
+      Json::parse(read(options_.output + "/report.json"))["sections"][0]["charts"]["ranking"];
+  EXPECT_EQ(ranking["pairs"], 20);
+  EXPECT_EQ(ranking["methods"][0]["method"], "best");
+  EXPECT_EQ(ranking["methods"][0]["rank"], 1.0);
+  EXPECT_EQ(ranking["methods"][1]["rank"], 2.5);
+  EXPECT_EQ(ranking["cliques"], Json::parse(R"([["worse", "like_it"]])"));
+  EXPECT_TRUE(has(text, "no difference shown: worse, like_it"));
+  EXPECT_TRUE(has(text, "all pairs of methods"));
+}
+
+TEST_F(ReportComparisonTest, NamesTheWorstProblemsOfARunWithTheCommandThatShowsEach) {
+  options_.runs = {addRun("a run", 0.1)};
+  const std::string text = page();
+  const Json worst =
+      Json::parse(read(options_.output + "/report.json"))["sections"][0]["worst"][0]["problems"];
+  EXPECT_EQ(worst.size(), 10u);
+  EXPECT_EQ(worst[0]["problem"], "4215528471039");
+  EXPECT_EQ(worst[0]["command"],
+            "pcrb replay --run '" + folder_.file("a run") +
+                "' --sequences eth/plain --kind local --problem 4215528471039 --rviz");
+  EXPECT_TRUE(has(text, "--problem 4215528471039 --rviz</code>"));
 }
 
 TEST_F(ReportComparisonTest, ShowsBesideTheMethodsWhatDoingNothingScores) {
   options_.runs = {addRun("good", 0.1), addRun("flaky", 0.2, 4)};
   const std::string text = page();
-  EXPECT_TRUE(has(text, "<th>good</th><th>flaky</th><th>do nothing</th>"));
+  EXPECT_TRUE(has(text,
+                  "<th scope=\"col\">good</th><th scope=\"col\">flaky</th>"
+                  "<th scope=\"col\">do nothing</th>"));
   EXPECT_TRUE(has(text, "<td class=\"untouched\">1.00</td>"));
   const Rows rows = readCsv(options_.output + "/tables/local_scores.csv");
   EXPECT_EQ(rows.back().at("method"), "do nothing");

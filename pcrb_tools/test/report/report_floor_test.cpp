@@ -111,8 +111,8 @@ TEST_F(ReportFloorTest, RefusesAGroundTruthOfNoSequenceOfTheResultsAndNamesRowsO
 TEST_F(ReportFloorTest, HasBesideItAxisErrorsThatAreMarkedWhereTheyLeaveTheAxis) {
   runReportTool(options_);
   const std::string page = read(options_.output + "/index.html");
-  EXPECT_NE(page.find("class=\"beyond\">◂ -2.00</text>"), std::string::npos);
-  EXPECT_NE(page.find("class=\"beyond\">2.00 ▸</text>"), std::string::npos);
+  EXPECT_NE(page.find("class=\"beyond\" data-method=\"run\">◂ -2.00</text>"), std::string::npos);
+  EXPECT_NE(page.find("class=\"beyond\" data-method=\"run\">2.00 ▸</text>"), std::string::npos);
 }
 
 }  // namespace

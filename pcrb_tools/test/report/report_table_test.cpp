@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "report/latex.hpp"
 #include "report/scored_problem.hpp"
 #include "report/table.hpp"
 
@@ -27,10 +28,34 @@ TEST(ReportTable, IsRoundedAndEscapedInMarkdownAndLatex) {
       toMarkdown(someTable()),
       "### Some_table\n\nHow to read it.\n\n| method | n | error | p |\n|---|---:|---:|---:|\n"
       "| a,\"b\" | 3 | 0.123 | \\<0.001 |\n| c\\_d | 4 | - | 0.250 |\n\n");
-  const std::string latex = toLatex(someTable());
-  EXPECT_NE(latex.find("\\caption{Some\\_table}"), std::string::npos);
+  const std::string latex = toLatex(someTable(), "local");
+  EXPECT_NE(latex.find("\\caption{Some\\_table, local problems. How to read it.}"),
+            std::string::npos);
   EXPECT_NE(latex.find("c\\_d & 4 & - & 0.250 \\\\\n"), std::string::npos);
   EXPECT_NE(latex.find("$<$0.001"), std::string::npos);
+}
+
+TEST(ReportTable, IsDividedInLatexIntoPartsThatFitAPageWithLabelsOfTheirOwn) {
+  Table table{"wide", "Wide", "Note.", {{"method"}, {"selection"}}, {}};
+  for (int i = 0; i < 12; ++i)
+    table.columns.push_back({"column " + std::to_string(i), Format::kError});
+  for (int row = 0; row < 50; ++row) {
+    table.rows.push_back({"m", "s" + std::to_string(row)});
+    for (int i = 0; i < 12; ++i) table.rows.back().push_back(0.5);
+  }
+  const std::string latex = toLatex(table, "global");
+  const auto count = [&latex](const std::string& text) {
+    std::size_t found = 0;
+    for (std::size_t at = latex.find(text); at != std::string::npos; at = latex.find(text, at + 1))
+      ++found;
+    return found;
+  };
+  EXPECT_EQ(count("\\begin{table}"), 4u);  // two parts of columns, each of two pages
+  EXPECT_EQ(count("\\bottomrule"), 4u);
+  EXPECT_EQ(count("m & s49 & "), 2u);
+  for (const std::string label : {"wide}", "wide-2}", "wide-3}", "wide-4}"}) {
+    EXPECT_EQ(count("\\label{tab:pcrb-global-" + label), 1u) << label;
+  }
 }
 
 TEST(ReportTable, HasThreeSignificantDigitsAndNoZeroForWhatIsNone) {

@@ -366,17 +366,32 @@ TEST_F(ReportTest, PageIsOneFileThatAsksForNothingElse) {
 TEST_F(ReportTest, PublishedFiguresStandOnlyBesideProblemsThatNoToolDrew) {
   options_.runs = {"gicp=" + addRun("run", 0.1)};
   runReportTool(options_);
-  EXPECT_NE(read(options_.output + "/index.html").find("<th>gicp, published</th>"),
+  EXPECT_NE(read(options_.output + "/index.html").find("<th scope=\"col\">gicp, published</th>"),
             std::string::npos);
 
   pcrb::ResultsStore(folder_.file("run"), pcrb::ResultsStore::Access::kReadWrite)
       .updateRunInfo("drawn_by eth/plain_local.txt", "sample_problems");
   runReportTool(options_);
   const std::string page = read(options_.output + "/index.html");
-  EXPECT_EQ(page.find("<th>gicp, published</th>"), std::string::npos);
+  EXPECT_EQ(page.find("<th scope=\"col\">gicp, published</th>"), std::string::npos);
   EXPECT_NE(page.find("No published figures stand beside plain"), std::string::npos);
   EXPECT_NE(read(options_.output + "/report.md").find("other ones than the published ones"),
             std::string::npos);
+}
+
+TEST_F(ReportTest, ItsTablesAndFiguresCompileInLatex) {
+  if (!fs::exists("/usr/bin/pdflatex")) GTEST_SKIP() << "pdflatex is not installed";
+  options_.draw_figures = true;
+  options_.runs = {addRun("good_one", 0.1), addRun("bad", 0.2, 5), addRun("ugly & 100 %", 0.3)};
+  runReportTool(options_);
+  std::ofstream(options_.output + "/paper.tex")
+      << "\\documentclass{article}\n\\usepackage{booktabs,graphicx}\n\\begin{document}\n"
+         "\\input{report}\\input{figures}\\end{document}\n";
+  const std::string log = outputOf(
+      "cd " + options_.output + " && pdflatex -interaction=nonstopmode -halt-on-error paper 2>&1");
+  EXPECT_NE(log.find("Output written on paper.pdf"), std::string::npos) << log;
+  EXPECT_EQ(log.find("multiply defined"), std::string::npos) << log;
+  EXPECT_EQ(log.find("Overfull \\hbox"), std::string::npos) << log;
 }
 
 TEST_F(ReportTest, PageOpensInABrowserAndShowsItsNumbersOnHover) {

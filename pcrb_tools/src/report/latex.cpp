@@ -1,0 +1,133 @@
+#include "report/latex.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "pcrb_core/io/text.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+constexpr std::size_t kLettersPerLine = 84;  // of \footnotesize in a page's width, with gaps
+constexpr std::size_t kGap = 2;              // letters between two columns
+constexpr std::size_t kRowsPerPage = 42;
+
+using Columns = std::vector<std::size_t>;  // positions
+
+/// Bytes of UTF-8 that begin a letter.
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::size_t widthOf(const Table& table, std::size_t column) {
+  std::size_t width = letters(table.columns[column].name);
+  for (const auto& row : table.rows) {
+    width = std::max(width, letters(cellText(row[column], table.columns[column].format)));
+  }
+  return width + kGap;
+}
+
+/// The first columns, of texts, name a row.
+std::size_t countKeys(const Table& table) {
+  std::size_t count = 0;
+  while (count + 1 < table.columns.size() && table.columns[count].format == Format::kText) ++count;
+  return std::max<std::size_t>(count, 1);
+}
+
+/// Columns that fit beside each other, those that name a row first in each part.
+std::vector<Columns> columnParts(const Table& table) {
+  const std::size_t keys = countKeys(table);
+  Columns first;
+  std::size_t key_width = 0;
+  for (std::size_t i = 0; i < keys; ++i) {
+    first.push_back(i);
+    key_width += widthOf(table, i);
+  }
+  std::vector<Columns> parts{first};
+  std::size_t width = key_width;
+  for (std::size_t i = keys; i < table.columns.size(); ++i) {
+    if (width + widthOf(table, i) > kLettersPerLine && parts.back().size() > keys) {
+      parts.push_back(first);
+      width = key_width;
+    }
+    parts.back().push_back(i);
+    width += widthOf(table, i);
+  }
+  return parts;
+}
+
+template <typename Cell>
+std::string line(const Columns& columns, const Cell& cell) {
+  std::string text;
+  for (const std::size_t column : columns) {
+    text += (text.empty() ? "" : " & ") + latexEscaped(cell(column));
+  }
+  return text + " \\\\\n";
+}
+
+std::string bodyOf(const Table& table, const Columns& columns, std::size_t begin, std::size_t end) {
+  std::string body =
+      line(columns, [&](std::size_t i) { return table.columns[i].name; }) + "\\midrule\n";
+  for (std::size_t row = begin; row < end; ++row) {
+    body += line(columns, [&](std::size_t i) {
+      return cellText(table.rows[row][i], table.columns[i].format);
+    });
+  }
+  return body;
+}
+
+}  // namespace
+
+std::string latexEscaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '\xC2') {
+      continue;  // of a degree sign, the one letter beyond ASCII that this suite writes
+    } else if (c == '\xB0') {
+      escaped += "$^\\circ$";
+    } else if (c == '\\') {
+      escaped += "\\textbackslash{}";
+    } else if (c == '<' || c == '>') {
+      escaped += std::string("$") + c + "$";
+    } else if (c == '~' || c == '^') {
+      escaped += std::string("\\") + c + "{}";
+    } else if (c == '\n') {
+      escaped += ' ';
+    } else {
+      if (std::string("_%&#${}").find(c) != std::string::npos) escaped += '\\';
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string latexTable(const std::string& caption, const std::string& label,
+                       const std::string& columns, const std::string& body) {
+  return "\\begin{table}[p]\n\\centering\\footnotesize\n\\caption{" + caption + "}\n\\label{" +
+         label + "}\n\\begin{tabular}{" + columns + "}\n\\toprule\n" + body +
+         "\\bottomrule\n\\end{tabular}\n\\end{table}\n\n";
+}
+
+std::string toLatex(const Table& table, const std::string& kind) {
+  std::string text;
+  std::size_t part = 0;
+  for (const Columns& columns : columnParts(table)) {
+    std::string alignment;
+    for (const std::size_t i : columns) {
+      alignment += table.columns[i].format == Format::kText ? 'l' : 'r';
+    }
+    for (std::size_t begin = 0; begin < table.rows.size(); begin += kRowsPerPage) {
+      ++part;
+      const std::string number = part > 1 ? "-" + std::to_string(part) : "";
+      const std::string note = part > 1 ? "continued." : latexEscaped(table.note);
+      const std::size_t end = std::min(begin + kRowsPerPage, table.rows.size());
+      text += latexTable(latexEscaped(table.title) + ", " + kind + " problems. " + note,
+                         "tab:pcrb-" + kind + "-" + table.id + number, alignment,
+                         bodyOf(table, columns, begin, end));
+    }
+  }
+  return text;
+}
+
+}  // namespace pcrb_tools

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "report/table.hpp"
+
+namespace pcrb_tools {
+
+std::string latexEscaped(const std::string& text);
+
+/// A `table` with booktabs around rows that are there already.
+///
+/// @param caption  LaTeX.
+/// @param columns  of the `tabular`.
+/// @param body     header, `\midrule`, rows.
+std::string latexTable(const std::string& caption, const std::string& label,
+                       const std::string& columns, const std::string& body);
+
+/// A table of the report as `table`s that fit a page each: columns that do not fit beside each
+/// other follow in a further one with the same first columns, rows likewise. Labels are
+/// `tab:pcrb-<kind>-<id>`, with `-2` and so on from the second part on; the caption is title and
+/// note. Needs the package booktabs.
+std::string toLatex(const Table& table, const std::string& kind);
+
+}  // namespace pcrb_tools
