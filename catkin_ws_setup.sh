@@ -21,7 +21,7 @@ needed_debian_packages=(
   libros-rosgraph-msgs-dev librosbag-dev librostest-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
   libtf2-ros-dev libtopic-tools-dev libvisualization-msgs-dev libxmlrpcpp-dev ros-base-dev rosbash rviz
   python3-dev python3-geometry-msgs python3-jinja2 python3-matplotlib python3-nav-msgs python3-numpy
-  python3-pytest python3-rosbag python3-rosgraph-msgs python3-rosnode python3-rospy python3-rostest
+  python3-pil python3-pytest python3-rosbag python3-rosgraph-msgs python3-rosnode python3-rospy python3-rostest
   python3-sensor-msgs python3-std-msgs python3-std-srvs python3-tf2-msgs python3-tf2-ros
   python3-visualization-msgs python3-yaml
   libarchive-dev libbenchmark-dev libboost-dev libcli11-dev libcurl4-openssl-dev libeigen3-dev libgtest-dev
@@ -41,7 +41,7 @@ declare -A noetic_names=(
 )
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
 ci_debian_packages=(catkin-lint chromium clang clang-format clang-tidy debootstrap iproute2 libclang-rt-14-dev locales munge
-  doxygen python3-pip python3-setuptools python3-wheel shellcheck slurm-wlm xvfb)
+  doxygen python3-pip python3-setuptools python3-wheel shellcheck slurm-wlm texlive-latex-recommended xvfb)
 
 say() { printf '==> %s\n' "$*"; }
 
@@ -230,37 +230,15 @@ test_workspace() {
 
 # --- demo -------------------------------------------------------------------------------------------
 
-free_port() {
-  "$python" -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
-}
-
 show_demo() {
   build_workspace
-  local logs=$root/demo/logs data=$root/demo/data run=$root/demo/run
   rm -rf "$root/demo"
   hide_products
   set +u
   # shellcheck source=/dev/null
   . "$root/devel/setup.bash"
   set -u
-  say "demo: simulate logs in the original formats of four data sets, and make registration problems of them"
-  { rosrun pcrb_tools make_sample_logs --output "$logs" &&
-    rosrun pcrb_tools prepare_dataset --logs "$logs" --root "$data"; } >"$root/demo/prepare.log" 2>&1 ||
-    { tail -5 "$root/demo/prepare.log" >&2; fail "the data could not be prepared, see above"; }
-  say "demo: prepared $(find "$data" -name '*_local.txt' | wc -l) sequences; every step is in demo/prepare.log"
-  say "demo: benchmark G-ICP on 160 of their problems, over ROS topics"
-  export ROS_MASTER_URI
-  ROS_MASTER_URI=http://127.0.0.1:$(free_port)
-  roslaunch pcrb_launch benchmark.launch root:="$data" run:="$run" kind:=local method:=gicp subset:=160 \
-    time_limit:=30 || fail "roslaunch failed, see above"
-  # roslaunch succeeds whatever became of its nodes; the summary is there only if every problem has its result.
-  [ -s "$run/summary.txt" ] || fail "the run did not finish, see above"
-  say "demo: $run has results.csv, results.sqlite and this summary.txt:"
-  cat "$run/summary.txt"
-  say "demo: run the paper's experiments, seven methods, on 40 problems each"
-  rosrun pcrb_tools run_paper --root "$data" --run "$root/demo/paper" --subset 40 --time-limit 30 >"$root/demo/paper.log" ||
-    { tail -5 "$root/demo/paper.log" >&2; fail "the paper's experiments did not finish, see above"; }
-  say "demo: done; open $root/demo/paper/report/index.html"
+  pcrb demo --output "$root/demo" || fail "the demo did not finish, see above"
 }
 
 # --- clean ------------------------------------------------------------------------------------------

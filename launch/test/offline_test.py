@@ -4,12 +4,14 @@ import csv
 import os
 import subprocess
 import sys
+import zlib
 
 import numpy as np
+import pcrb
 import rosbag
 import rospy
 import rostest
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Pose, PoseStamped
 from nav_msgs.msg import Path
 from sensor_msgs.msg import PointCloud2
 
@@ -95,6 +97,30 @@ class OfflineTest(TestCase):
                 else:
                     self.assertEqual(found, scored(row))
             os.rename(self.path('run'), self.path(f'run_{sequence}'))
+
+    def test_a_python_function_gets_the_servers_bits_and_its_run_the_same_scores(self):
+        """A method that depends on every bit of the clouds, as a node of the server's and as a function without ROS."""
+        def align(source, target):
+            random = np.random.default_rng(zlib.crc32(source.astype(np.float32).tobytes() + target.astype(np.float32).tobytes()))
+            pose = Pose()
+            maths.fill_pose(pose, maths.transform(maths.axis_angle(random.normal(size=3), 0.2), random.normal(size=3)))
+            return pose
+
+        def answer(client, problem):
+            source, target = (maths.points_of(client.newest[topic]) for topic in ('source', 'target'))
+            client.submit(problem, align(source, target))
+
+        def function(problem):
+            p, q = (lambda pose: (pose.position, pose.orientation))(align(problem.source, problem.target))
+            return (p.x, p.y, p.z), (q.x, q.y, q.z, q.w)
+
+        server = self.server(self.data, kind='both')
+        self.client(server).serve(server, answer)
+        self.assert_ends_well(server)
+        results = pcrb.run(function, self.data.root, self.path('function'), kind='both')
+        self.assertEqual(len(results['error']), len(server.rows()))
+        self.assertEqual({row_key(row): scored(row) for row in rows(self.path('function'))},
+                         {row_key(row): scored(row) for row in server.rows()})
 
     def test_matrices_are_in_the_frame_of_the_clouds_files(self):
         for sequence in 'kitchen', 'hall':

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shlex
 import subprocess
 import sys
 
@@ -116,6 +117,9 @@ class PcrbCommandTest(TestCase):
         current, output = self.run_of('current', '--method', 'icp', '--subset', '4', '--master', 'current')
         self.assertEqual(len(rows(current)), 4)
         self.assertNotIn('REQUIRED', output)
+        for run in run, current:
+            with open(os.path.join(run, 'shards', '0', 'roslaunch.log')) as log:
+                self.assertNotIn('REQUIRED', log.read())
 
     def test_compare_passes_a_run_like_the_old_one_and_fails_one_that_is_worse(self):
         old, _ = self.run_of('old')
@@ -127,7 +131,44 @@ class PcrbCommandTest(TestCase):
         result = pcrb('compare', old, idle, '--json')
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         verdicts = {row['sequence']: row['verdict'] for row in json.loads(result.stdout)}
-        self.assertEqual(verdicts, {'kitchen': 'same', 'hall': 'same', 'total': 'worse'})  # three pairs of clouds show nothing
+        self.assertEqual(verdicts, {'kitchen': 'too few pairs to tell', 'hall': 'too few pairs to tell', 'total': 'worse'})
+
+    def test_replay_takes_a_run_of_several_methods_and_one_problem_and_says_what_it_lacks(self):
+        run, _ = self.run_of('runs/icp', '--method', 'icp', '--sequences', 'kitchen', '--kind', 'local', '--subset', '4')
+        worst = max(rows(run), key=lambda row: row['error'])
+        problem = ['--sequences', 'rooms/kitchen', '--kind', 'local', '--problem', worst['problem_id'], '--rate', '100']
+        result = pcrb('replay', '--run', self.path('runs'), '--method', 'icp', *problem)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"1/1 rooms/kitchen local {worst['problem_id']}: error {worst['error']:.3g} ", result.stdout)
+        self.assertNotIn('REQUIRED', result.stdout + result.stderr)
+        self.assert_refused(['replay', '--run', self.path('runs')], 'expected --method icp beside it')
+        self.assert_refused(['replay', '--root', self.data.root, '--sequences', 'kitchen', '--problem', '1'], '--kind: must be given')
+
+    def test_paper_has_a_client_of_ones_own_beside_its_methods(self):
+        paper = self.path('paper')
+        client = executable('pcrb_tools', 'minimal_client.py')
+        result = pcrb('paper', '--root', self.data.root, '--run', paper, '--method', 'icp', 'idle', '--client', client, '--subset', '4',
+                      '--no-figures')
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        with open(os.path.join(paper, 'report', 'report.json')) as file:
+            section = json.load(file)['sections'][0]
+        self.assertEqual([method['method'] for method in section['methods']], ['icp', 'idle'])
+        with open(os.path.join(paper, 'report', 'report.tex')) as file:
+            latex = file.read()
+        self.assertRegex(latex, r'label\{tab:pcrb-local-medians\}\n\\begin\{tabular\}\{lrrr\}\n\\toprule\n & icp & idle & do nothing')
+        self.assertEqual(latex.count('\\begin{table}'), len(set(re.findall(r'\\label\{(.*?)\}', latex))))
+        self.assert_command_shows(section['worst'][1]['problems'][0])
+        self.assert_refused(['paper', '--root', self.data.root, '--run', paper, '--method', 'icpp'], r'did you mean icp\?')
+
+    def assert_command_shows(self, worst):
+        """What the report offers for copying shows exactly that problem."""
+        words = shlex.split(worst['command'])
+        self.assertEqual((words[0], words[-1]), ('pcrb', '--rviz'))
+        result = pcrb(*words[1:-1])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        shown = re.findall(r'^1/1 .*', result.stdout, re.MULTILINE)
+        self.assertEqual(len(shown), 1, result.stdout)
+        self.assertIn(f"{worst['problem']}: error {worst['error']:.3g} ", shown[0])
 
     def test_completion_offers_commands_options_and_choices(self):
         script = pcrb('completion', 'bash').stdout

@@ -1,18 +1,13 @@
 """pcrb run, localize and replay: launch files with a master of their own, unless the current one is wanted."""
-import contextlib
 import csv
 import dataclasses
+import glob
 import json
 import os
 import shlex
 import shutil
-import signal
 import socket
-import sqlite3
 import subprocess
-import sys
-import time
-from xml.sax.saxutils import quoteattr
 
 import places
 import recipes
@@ -33,8 +28,8 @@ CHOICES = {'restart': ('never', 'target', 'problem'), 'settle': ('first', 'nth',
 def options_of(file, changes):
     options = []
     for option in launch_options(file):
-        option = shared(option)
         if option.name not in OWN_SETTINGS:
+            option = shared(option)
             option = dataclasses.replace(option, choices=CHOICES.get(option.name, option.choices))
             options.append(dataclasses.replace(option, **changes.get(option.name, {})))
     return options
@@ -61,17 +56,16 @@ class Benchmark:
                 master_mistakes(values))
 
     def arguments(self, options, values):
-        always = ('root', 'time-limit')
+        always = ('root', 'method')
+        never = ('run', 'method') if values.get('client') else ('run',)
         return [assignment(option, values) for option in options
-                if option.source and option.name != 'run' and (option.name in always or given(option, values))]
+                if option.source and option.name not in never and (option.name in always or given(option, values))]
 
     def run(self, name, options, values):
         run = os.path.abspath(values['run'])
-        os.makedirs(run, exist_ok=True)
-        with launch_of(self.file, values) as (file, changed):
-            arguments = [word for word in self.arguments(options, values) if not word.startswith(changed)]
-            how = run_with_current_master if values['master'] == 'current' else run_with_own_master
-            status = how(name, file, arguments, run, values)
+        status = run_program([program('evaluate_batch'), '--run', run, '--jobs', str(values['jobs']), '--master', values['master'],
+                              '--launch', self.file, *series_words(values), *self.arguments(options, values)], f'pcrb {name}',
+                             stdout=subprocess.DEVNULL if values['json'] else None)
         if values['json']:
             print(json.dumps({'status': status, **(result_of_series(run) if is_series(values) else result_of(run))}, indent=1))
         elif status == 0:
@@ -84,6 +78,13 @@ class Benchmark:
 
 def is_series(values):
     return values['repeat'] > 1 or bool(values.get('sweep'))
+
+
+def series_words(values):
+    """What evaluate_batch is told of a series; nothing where it is one run."""
+    if not is_series(values):
+        return []
+    return ['--repeat', str(values['repeat']), *(['--sweep', values['sweep']] if values.get('sweep') else [])]
 
 
 def result_of_series(run):
@@ -100,13 +101,17 @@ def encoding_mistakes(values):
 
 
 def method_mistakes(values):
-    methods, method = places.known_methods(), values.get('method')
-    if not method or values.get('client') or method in methods:
-        return []
-    if not values['plugin']:
-        return [f'--method: found `{method}`, expected {one_of(methods)}, or --plugin with your own' + did_you_mean(method, methods)]
-    return [] if values['parameters'] else [
-        '--parameters: must be given with a method of your own: ' + WORDS['parameters'].help]
+    """A method that nobody has; with a plugin or a client of the user's own any name will do."""
+    known = places.known_methods()
+    names = [values['method']] if isinstance(values.get('method'), str) else values.get('method') or []
+    if values.get('client'):
+        return ['--client and --plugin: found both, expected one of them'] if values.get('plugin') else []
+    strange = [name for name in names if name not in known]
+    if not values.get('plugin'):
+        return [f'--method: found `{name}`, expected {one_of(known)}, or --plugin or --client with your own{did_you_mean(name, known)}'
+                for name in strange]
+    return ['--parameters: must be given with a method of your own: ' + WORDS['parameters'].help
+            ] if strange and not values['parameters'] else []
 
 
 def master_mistakes(values):
@@ -136,73 +141,6 @@ def assignment(option, values):
     return f'{option.source}:={value}'
 
 
-CLIENT_LAUNCH = '''<launch>
-  <arg name="run"/> <arg name="root"/> <arg name="sequences" default="all"/> <arg name="kind" default="local"/>
-  <arg name="presentation" default="registration"/> <arg name="subset" default="0"/> <arg name="seed" default="1"/>
-  <arg name="shard" default="0/1"/> <arg name="time_limit" default="10"/> <arg name="rviz" default="false"/>
-  <arg name="audit" default="false"/> <arg name="results" default="$(eval 'live' if arg('rviz') else 'end')"/>
-  <arg name="yaw_only" default="false"/> <arg name="global_guess" default="false"/>
-  <include file="$(find pcrb_launch)/benchmark.launch" pass_all_args="true">
-    <arg name="client" value="false"/>
-    <arg name="under_test" value={name}/>
-  </include>
-  <node ns="/pcrb" name="client" pkg="pcrb_tools" type="run_command" args={args} output="screen"/>
-</launch>
-'''
-
-
-@contextlib.contextmanager
-def launch_of(file, values):
-    """The launch file, and beginnings of arguments that it does not take: one that starts --client where that is given.
-
-    It lies in the run's folder, under a name that says nothing of the moment: an interrupted run goes on with it.
-    """
-    if not values.get('client'):
-        yield file, ()
-        return
-    path = os.path.join(os.path.abspath(values['run']), 'client.launch')
-    command = shlex.join(['sh', '-c', values['client']])
-    with open(path, 'w', encoding='utf-8') as out:
-        out.write(CLIENT_LAUNCH.format(name=quoteattr(values['client']), args=quoteattr(command)))
-    yield path, ('client:=', 'method:=', 'plugin:=', 'parameters:=')
-
-
-def run_with_own_master(name, file, arguments, run, values):
-    series = ['--repeat', str(values['repeat']), *(['--sweep', values['sweep']] if values.get('sweep') else [])]
-    command = [program('evaluate_batch'), '--run', run, '--jobs', str(values['jobs']), '--launch', file,
-               *(series if is_series(values) else []), *arguments]
-    return run_program(command, f'pcrb {name}', stdout=subprocess.DEVNULL if values['json'] else None)
-
-
-def run_with_current_master(name, file, arguments, run, values):
-    command = ['roslaunch', *([] if os.sep in file else ['pcrb_launch']), file, f'run:={run}', *arguments]
-    log = os.path.join(run, 'roslaunch.log')
-    with open(log, 'a', encoding='utf-8') as out, subprocess.Popen(command, stdout=out, stderr=out) as process:
-        watch(process, run)
-    summary = os.path.join(run, 'summary.txt')
-    if not os.path.isfile(summary) or not is_complete(run):
-        print(f'pcrb {name}: the run is not complete, its log is {log}', file=sys.stderr)
-        return 1
-    if not values['json']:
-        with open(summary, encoding='utf-8') as file:
-            print(file.read(), end='')
-    return 0
-
-
-def watch(process, run):
-    """Shows how many results there are until the process has ended."""
-    is_terminal = sys.stderr.isatty()
-    while process.poll() is None:
-        try:
-            time.sleep(0.5)
-            if is_terminal:
-                print(f'\r{count_of(run)} problems have a result ', end='', file=sys.stderr, flush=True)
-        except KeyboardInterrupt:
-            process.send_signal(signal.SIGINT)
-    if is_terminal:
-        print(file=sys.stderr)
-
-
 def has_master():
     uri = os.environ.get('ROS_MASTER_URI', 'http://localhost:11311')
     host, _, port = uri.partition('//')[2].rstrip('/').rpartition(':')
@@ -213,37 +151,19 @@ def has_master():
         return False
 
 
-def query(run, text):
-    path = os.path.join(run, 'results.sqlite')
-    if not os.path.isfile(path):
-        return []
-    with contextlib.closing(sqlite3.connect(f'file:{path}?mode=ro', uri=True)) as store:
-        try:
-            return store.execute(text).fetchall()
-        except sqlite3.Error:
-            return []
-
-
-def count_of(run):
-    return (query(run, 'SELECT COUNT(*) FROM result') or [(0,)])[0][0]
-
-
-def is_complete(run):
-    planned = query(run, "SELECT value FROM run WHERE key = 'problems'")
-    return bool(planned) and str(planned[0][0]) == str(count_of(run))
-
-
 def result_of(run):
-    """The summary as numbers."""
-    result = {'run': run, 'problems': count_of(run), 'is_complete': is_complete(run), 'sequences': []}
+    """The summary as numbers, which is there once every problem has its result."""
     summary = os.path.join(run, 'summary.txt')
-    if not os.path.isfile(summary):
+    is_complete = os.path.isfile(summary)
+    result = {'run': run, 'problems': None, 'is_complete': is_complete, 'sequences': []}
+    if not is_complete:
         return result
     with open(summary, encoding='utf-8') as file:
         table = file.read().partition('\n\n')[0]  # remarks are below it
     header, *rows = [line.split() for line in table.splitlines()]
     for row in rows:
         result['sequences'].append({name: number_of(text) for name, text in zip(header, row)})
+    result['problems'] = sum(row['count'] for row in result['sequences'] if row['sequence'] == 'total')
     return result
 
 
@@ -259,27 +179,50 @@ def number_of(text):
 
 
 class Replay:
-    """replay.launch with a master of its own."""
+    """replay.launch with a master of its own. A folder of runs of several methods, as of pcrb paper, takes --method."""
 
     def options(self):
-        options = options_of('replay.launch', {'rviz': {'default': None}, 'kind': {
-            'choices': ('local', 'global'), 'shown_default': 'the scans of the sequence'}, 'name': {
-                'name': 'sequences', 'help': WORDS['sequences'].help}})
-        return [*options, MASTER]
+        options = options_of('replay.launch', {'rviz': {'default': None}, 'problem': {'many': True, 'metavar': 'ID'}, 'kind': {
+            'choices': ('local', 'global'), 'shown_default': 'the scans of the sequence, or all of the run'}})
+        named = [option for option in options if option.source not in ('sequence', 'sequences')]
+        method = dataclasses.replace(WORDS['method'], source='')
+        return [dataclasses.replace(WORDS['sequences'], default=None), *named, method, MASTER]
 
     def check(self, values):
         mistakes = []
-        if bool(values['run']) == bool(values['sequences']):
-            mistakes.append('--run or --sequences: expected one of the two')
-        if values['run'] and not os.path.isfile(os.path.join(values['run'], 'results.sqlite')):
-            mistakes.append(f'--run: found no results.sqlite in {values["run"]}, expected the folder of a run')
-        return mistakes
+        if not values['run'] and len(values['sequences']) != 1:
+            mistakes.append('--run or --sequences: expected the folder of a run, or one sequence')
+        if values['problem'] and not values['run'] and not values['kind']:
+            mistakes.append('--kind: must be given with --problem: a sequence has local and global problems')
+        if values['method'] and not values['run']:
+            mistakes.append('--method: goes with --run only')
+        return mistakes + (self.run_mistakes(values) if values['run'] else [])
+
+    @staticmethod
+    def run_mistakes(values):
+        folder = run_folder(values)
+        if os.path.isfile(os.path.join(folder, 'results.sqlite')):
+            return []
+        methods = sorted(os.path.basename(os.path.dirname(path)) for path in glob.glob(os.path.join(folder, '*', 'results.sqlite')))
+        expected = f'--method {one_of(methods)} beside it' if methods else 'the folder of a run'
+        return [f'--run: found no results.sqlite in {folder}, expected {expected}']
 
     def run(self, name, options, values):
-        words = [assignment(option, values) for option in options if option.source and given(option, values)]
-        words += ['rviz:=true' if values['rviz'] else 'rviz:=false'] if not any(w.startswith('rviz:=') for w in words) else []
+        words = [assignment(option, values) for option in options
+                 if option.source and option.name not in ('run', 'rviz') and given(option, values)]
+        words.append('rviz:=true' if values['rviz'] else 'rviz:=false')
+        sequences = ' '.join(values['sequences'])
+        if values['run']:
+            words += ['run:=' + os.path.abspath(run_folder(values)), *([f'sequences:={sequences}'] if sequences else [])]
+        else:
+            words.append(f'sequence:={sequences}')
         own = ['-p', str(free_port())] if values['master'] == 'own' else []
         return run_program([which('roslaunch'), *own, 'pcrb_launch', 'replay.launch', *words])
+
+
+def run_folder(values):
+    """That of a method's run where one is named."""
+    return os.path.join(values['run'], values['method'] or '')
 
 
 def free_port():

@@ -8,10 +8,8 @@ import doctor
 import probe
 import scoring
 import texts
-from benchmarking import SWEEP, Benchmark, Replay
-from options import Option, did_you_mean, one_of
+from benchmarking import SWEEP, Benchmark, Replay, method_mistakes
 from programs import Tool
-from words import BASELINES, METHODS, TIME_LIMIT
 
 
 class Module:
@@ -36,14 +34,6 @@ class Command:
         return self.backing.options()
 
 
-def paper_mistakes(values):
-    known = (*METHODS, *BASELINES)
-    wrong = [method for method in values['method'] if method not in known and not values['plugin']]
-    return [f'--method: found `{method}`, expected {one_of(known)}, or --plugin with your own{did_you_mean(method, known)}'
-            for method in wrong]
-
-
-CLIENT = Option('client', 'command that starts a client of your own, in place of a method of this suite', metavar='COMMAND')
 LOG_FRAME = {'frame': {'name': 'log-frame'}}  # score has the other frame
 ROOTED = {'root': {'required': True}}
 
@@ -67,15 +57,16 @@ COMMANDS = [
             'pcrb import-protocol apartment_protocol.csv ~/pcrb/eth/apartment --output ~/protocol/eth/apartment_global.txt'),
     Command('check', 'data', 'check data sets: clouds, problems, overlaps', Tool('check_dataset', changes=ROOTED),
             'pcrb check --root ~/pcrb --sequences eth kaist'),
-    Command('run', 'run', 'benchmark a registration method, or a client of your own', Benchmark('benchmark.launch', {
-        'time-limit': {'default': TIME_LIMIT}}, [CLIENT, SWEEP]), 'pcrb run --root ~/pcrb --run ~/runs/gicp --method gicp --subset 100'),
+    Command('run', 'run', 'benchmark a registration method, or a client of your own', Benchmark('benchmark.launch', {}, [SWEEP]),
+            'pcrb run --root ~/pcrb --run ~/runs/gicp --method gicp --subset 100'),
     Command('localize', 'run', 'benchmark a localization node as it is', Benchmark('localization.launch', {
-        'time-limit': {'default': TIME_LIMIT}, 'bridge-parameters': {'kind': 'file', 'metavar': 'FILE'}}),
+        'bridge-parameters': {'kind': 'file', 'metavar': 'FILE'}}),
             'pcrb localize --root ~/pcrb --run ~/runs/amcl3d --sequences planetary_map --node "my_package my_node.launch"'),
     Command('probe', 'run', 'find out how a localization node is benchmarked', Module(probe),
             'pcrb probe --node "my_package my_node.launch" --output my_node.yaml'),
-    Command('paper', 'run', f'the experiments of the paper ({", ".join(METHODS)}), and a method of your own beside them', Tool('run_paper', changes={
-        'sequences': {'default': None, 'shown_default': 'all'}}, more=paper_mistakes), 'pcrb paper --root ~/pcrb --run ~/runs/paper --subset 100'),
+    Command('paper', 'run', 'the experiments of the paper, seven methods, and a method of your own beside them', Tool('run_paper', changes={
+        'sequences': {'default': None, 'shown_default': 'all'}}, more=method_mistakes),
+            'pcrb paper --root ~/pcrb --run ~/runs/paper --subset 100'),
     Command('score', 'results', 'score poses of problems or of a trajectory, without ROS', scoring.Score(),
             'pcrb score --root ~/pcrb --sequences eth/apartment --kind local --poses mine.txt --run ~/runs/mine'),
     Command('report', 'results', 'compare runs: a page, tables, figures', Tool('report'),

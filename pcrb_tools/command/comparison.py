@@ -8,6 +8,8 @@ import tempfile
 from options import Option, UsageError
 from programs import program, run_program
 
+TOO_FEW = 'too few pairs to tell'  # the report's verdict
+
 OPTIONS = [
     Option('old', 'folder of the run to compare with', 'folder', 'OLD', positional=True, required=True),
     Option('new', 'folder of the run that is compared', 'folder', 'NEW', positional=True, required=True),
@@ -53,7 +55,7 @@ def differences(section):
         yield {'sequence': row['selection'], 'kind': section['kind'], 'problems': row['problems'], 'pairs': row['pairs'],
                'old': old['median'], 'new': new['median'], 'difference': new['median'] - old['median'],
                'unanswered_old': old['problems'] - old['replied'], 'unanswered_new': new['problems'] - new['replied'],
-               'p': row['corrected p']}
+               'p': row['corrected p'], 'test': row['verdict']}
 
 
 def verdict(row, values):
@@ -61,6 +63,8 @@ def verdict(row, values):
     is not answered any more is worse without a test."""
     if row['unanswered_new'] > row['unanswered_old']:
         return 'worse'
+    if row['test'] == TOO_FEW:
+        return TOO_FEW
     limit = values['max-increase'] / 100 * row['old']
     if row['p'] is None or row['p'] >= values['significance'] or abs(row['difference']) <= limit:
         return 'same'
@@ -92,5 +96,6 @@ def print_table(rows):
         cells = [text.ljust(width) if i < 2 or i == len(header) - 1 else text.rjust(width)
                  for i, (text, width) in enumerate(zip(line, widths))]
         print('  '.join(cells).rstrip())
-    if any(row['pairs'] < 6 for row in rows):
-        print('Fewer than 6 pairs of clouds are too few for the test to show a difference.')
+    if any(row['verdict'] == TOO_FEW for row in rows):
+        print('A test of so few pairs of clouds (fewer than 6, or a few more in several sequences) can show no difference: whether '
+              'these are the same or worse is not known.')

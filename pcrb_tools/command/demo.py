@@ -6,7 +6,7 @@ import time
 import places
 from programs import program, run_program
 from terminal import say
-from words import METHODS, TIME_LIMIT, WORDS
+from words import WORDS
 
 # The seven methods get a quarter of the first run's problems each.
 OPTIONS = [dataclasses.replace(WORDS['output'], default='pcrb_demo'), dataclasses.replace(WORDS['subset'], low=4, default=160)]
@@ -57,7 +57,7 @@ def prepare(folder, logs, data):
 
 def benchmark(data, folder, subset):
     say(f'demo, 2 of 3: benchmark G-ICP on {subset} of their local problems, over ROS topics')
-    arguments = {'root': data, 'kind': 'local', 'method': 'gicp', 'subset': subset, 'time_limit': TIME_LIMIT}
+    arguments = {'root': data, 'kind': 'local', 'method': 'gicp', 'subset': subset}
     status = run_program([program('evaluate_batch'), '--run', folder, '--jobs', '1',
                           *(f'{name}:={value}' for name, value in arguments.items())], 'pcrb demo')
     if status == 0:
@@ -66,6 +66,5 @@ def benchmark(data, folder, subset):
 
 
 def experiments(data, folder, subset):
-    say(f'demo, 3 of 3: the paper\'s experiments, {subset} problems for each of {", ".join(METHODS)}')
-    return run_program([program('run_paper'), '--root', data, '--run', folder, '--subset', str(subset),
-                        '--time-limit', str(TIME_LIMIT)], 'pcrb demo')
+    say(f'demo, 3 of 3: the paper\'s experiments, {subset} problems for each of its seven methods')
+    return run_program([program('run_paper'), '--root', data, '--run', folder, '--subset', str(subset)], 'pcrb demo')

@@ -6,6 +6,10 @@ import sys
 from options import did_you_mean
 
 
+class NotBuilt(Exception):
+    """The workspace lacks what a command needs."""
+
+
 def prefixes():
     """The devel or install spaces that are sourced, and the one that this program is in."""
     own = os.path.dirname(os.path.dirname(os.path.realpath(sys.argv[0])))
@@ -47,21 +51,28 @@ def launch_file(name):
     return os.path.join(folder, name) if folder else None
 
 
+def core():
+    """The Python package of pcrb_core, which says what sequences and methods there are: loaded when it is needed."""
+    for prefix in prefixes():
+        for folder in sorted(glob.glob(os.path.join(prefix, 'lib', 'python3*', '*-packages'))):
+            if os.path.isdir(os.path.join(folder, 'pcrb')) and folder not in sys.path:
+                sys.path.append(folder)
+    try:
+        import pcrb
+    except ImportError as error:
+        raise NotBuilt(f'found no Python package pcrb ({error}): source devel/setup.bash of a workspace that is built') from error
+    return pcrb
+
+
 def known_methods():
-    """The methods that have a parameter file."""
+    """The methods that have a parameter file: those of this suite, and its baselines."""
     files = glob.glob(os.path.join(package_folder('pcrb_launch') or '', 'config', 'methods', '*.yaml'))
     return sorted(os.path.splitext(os.path.basename(file))[0] for file in files)
 
 
 def problem_files(root, kind='both'):
     """(data set, sequence, kind, path) of each problem file below a root."""
-    found = []
-    for each in ('local', 'global'):
-        for path in sorted(glob.glob(os.path.join(root, '*', f'*_{each}.txt'))):
-            data_set, name = path.split(os.sep)[-2:]
-            if kind in ('both', None, each):
-                found.append((data_set, name[:-len(f'_{each}.txt')], each, path))
-    return found
+    return [found for found in core().find_sequences(root) if kind in ('both', None, found[2])]
 
 
 def cloud_folders(root):
@@ -71,16 +82,18 @@ def cloud_folders(root):
 
 
 def select(names, known, place):
-    """Those of (data set, sequence) that some words name: all, a sequence, a data set, or data_set/sequence.
+    """Those of (data set, sequence) that some words name, by the rule of all programs: all, a sequence, a data set, or
+    data_set/sequence.
 
     Returns them and a list of mistakes: words that name nothing.
     """
-    chosen, mistakes = [], []
+    pcrb, chosen, mistakes = core(), [], []
     for name in names or ['all']:
-        found = [pair for pair in known if name in ('all', pair[0], pair[1], f'{pair[0]}/{pair[1]}')]
-        if not found:
+        try:
+            found = pcrb.select_sequences(known, [name])
+        except pcrb.InvalidParameter:
             words = {word for pair in known for word in (*pair, '/'.join(pair))}
-            mistakes.append(f'--sequences: found nothing called `{name}` in {place}' +
-                            (did_you_mean(name, words) or ''))
+            mistakes.append(f'--sequences: found nothing called `{name}` in {place}' + (did_you_mean(name, words) or ''))
+            continue
         chosen += [pair for pair in found if pair not in chosen]
     return chosen, mistakes

@@ -1,5 +1,6 @@
 """Commands that are a program of pcrb_tools or a launch file: their options are asked of these, not said again."""
 import dataclasses
+import functools
 import os
 import re
 import subprocess
@@ -7,17 +8,14 @@ import sys
 import xml.etree.ElementTree
 
 import places
-from options import Option, UsageError, given
+from places import NotBuilt  # noqa: F401  (for those who call programs)
+from options import Option, given
 from words import WORDS
 
 # What programs call otherwise.
 RENAMES = {'threads': 'jobs', 'radius': 'distance', 'upright': 'yaw-only', 'problems': 'kind', 'node-launch': 'node',
-           'sequence': 'name', 'stamps-file': 'scans', 'map-file': 'map', 'methods': 'method'}
+           'sequence': 'name', 'stamps-file': 'scans', 'map-file': 'map', 'client-command': 'client'}
 NUMBER_LIMITS = {'POSITIVE': (1e-9, None), 'NONNEGATIVE': (0, None)}
-
-
-class NotBuilt(Exception):
-    pass
 
 
 def run_program(command, name=None, **streams):
@@ -59,6 +57,7 @@ def in_order(choices, known):
     return tuple(word for word in known if word in choices) if choices and set(choices) <= set(known) else choices or known
 
 
+@functools.lru_cache(maxsize=None)
 def described(name):
     """The options of a program, as it describes them itself, a line each."""
     text = subprocess.run([program(name), '--describe'], stdout=subprocess.PIPE, check=True, encoding='utf-8').stdout
@@ -139,6 +138,7 @@ class Tool:
 
     def __init__(self, name, drop=(), folders=False, changes=None, more=lambda values: []):
         self.name, self.drop, self.folders, self.changes, self.more = name, set(drop), folders, changes or {}, more
+        self.chosen = []  # the sequences, once check() has found them
 
     def options(self):
         options = []
@@ -156,7 +156,9 @@ class Tool:
     def check(self, values):
         if not self.folders:
             return self.more(values)
-        _, mistakes = places.select(values['sequences'], places.cloud_folders(values['root']), values['root'])
+        self.chosen, mistakes = places.select(values['sequences'], places.cloud_folders(values['root']), values['root'])
+        if values.get('output') and len(self.chosen) > 1:
+            mistakes.append(f'--output: found {len(self.chosen)} sequences, expected one with --output')
         return mistakes + self.more(values)
 
     def arguments(self, options, values):
@@ -169,10 +171,7 @@ class Tool:
         words = self.arguments(options, values)
         if not self.folders:
             return run_program([program(self.name), *words], f'pcrb {name}')
-        chosen, _ = places.select(values['sequences'], places.cloud_folders(values['root']), values['root'])
-        if values.get('output') and len(chosen) > 1:
-            raise UsageError([f'--output: found {len(chosen)} sequences, expected one with --output'])
-        for data_set, sequence in chosen:
+        for data_set, sequence in self.chosen:
             folder = os.path.join(values['root'], data_set, sequence)
             status = run_program([program(self.name), folder, *words], f'pcrb {name}')
             if status != 0:

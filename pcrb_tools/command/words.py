@@ -1,10 +1,6 @@
 """The words that several commands share: each means one thing, whatever the command."""
 from options import Option
 
-TIME_LIMIT = 30  # s
-METHODS = ('icp', 'gicp', 'ndt', 'ppcr', 'ransac', 'fgr', 'teaser')
-BASELINES = ('icp_pcl', 'gicp_pcl', 'ndt_pcl', 'ndt_1m', 'ndt_coarse_to_fine', 'ppcr_text', 'do_nothing')
-
 WORDS = {option.name: option for option in (
     Option('root', 'folder of the data sets, in the common layout', 'folder'),
     Option('name', 'name of the sequence, where it is another than the input\'s', metavar='NAME'),
@@ -16,11 +12,12 @@ WORDS = {option.name: option for option in (
     Option('node', 'launch file of the node, its package and file, or a recipe\'s name', metavar='NODE'),
     Option('plugin', 'shared library with registration methods of your own', 'path', 'FILE'),
     Option('parameters', 'YAML file of the method\'s parameters', 'file'),
+    Option('client', 'command that starts a client of your own, in place of a method of this suite', metavar='COMMAND'),
     Option('presentation', 'how problems are shown: two clouds, or a map and a scan in its sensor\'s frame',
            choices=('registration', 'localization')),
     Option('subset', 'number of problems to draw; 0 = all', 'int', low=0, default=0),
     Option('seed', 'seed of all that is drawn at random', 'int', low=0, high=2**31 - 1, default=1),
-    Option('time-limit', 'seconds that one problem may take', 'number', low=1e-3, default=TIME_LIMIT),
+    Option('time-limit', 'seconds that one problem may take', 'number', low=1e-3),
     Option('audit', 'give each target a secret motion, so that a client\'s memory is of no use', 'flag'),
     Option('results', 'time at which the errors of problems are published: they tell a client how to do better',
            choices=('end', 'live'), shown_default='end; live with --rviz'),

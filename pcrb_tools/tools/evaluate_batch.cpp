@@ -31,6 +31,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--only", options.only, "run this shard alone, and do not merge: for schedulers")
       ->check(CLI::Range(0, 999999));
+  app.add_option_function<std::string>(
+         "--master", [&](const std::string& master) { options.own_masters = master == "own"; },
+         "ROS master: one of its own per shard, or the one at ROS_MASTER_URI")
+      ->check(CLI::IsMember({"own", "current"}))
+      ->default_str("own");
   app.add_option("--scratch", options.scratch,
                  "folder for logs and temporary files [logs: with the results]");
   pcrb_tools::SeriesOptions series;

@@ -61,7 +61,7 @@ class Batch {
 
 /// What is benchmarked, for people who watch: the method or the node, as far as arguments say it.
 std::string subjectOf(const BatchOptions& options) {
-  for (const std::string prefix : {"method:=", "node:=", "node_launch:="}) {
+  for (const std::string prefix : {"client_command:=", "method:=", "node:=", "node_launch:="}) {
     for (const std::string& argument : options.arguments) {
       if (argument.rfind(prefix, 0) == 0) return argument.substr(prefix.size());
     }
@@ -176,6 +176,11 @@ std::shared_ptr<const ShardSettings> makeSettings(const BatchOptions& options) {
   settings->shards = numberOfShards(options);
   settings->command = launchCommand(options);
   settings->scratch = options.scratch;
+  settings->own_masters = options.own_masters;
+  if (!options.own_masters && settings->shards != 1) {
+    throw pcrb::InvalidParameter("--master current: found " + std::to_string(settings->shards) +
+                                 " shards, expected 1, for one master has room for one benchmark");
+  }
   if (options.only && *options.only >= settings->shards) {
     throw pcrb::InvalidParameter("--only: found " + std::to_string(*options.only) +
                                  ", expected a shard below " + std::to_string(settings->shards));

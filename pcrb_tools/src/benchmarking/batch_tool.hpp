@@ -16,6 +16,7 @@ struct BatchOptions {
   int shards = 0;                           ///< 0: as before, or as many as jobs
   std::optional<int> only;                  ///< this shard alone, and no merging
   std::string scratch;                      ///< folder for logs and temporary files
+  bool own_masters = true;                  ///< else all nodes are at ROS_MASTER_URI
 };
 
 /// The arguments of a launch file among a program's: `name:=value`, but for `__name:=…` and its
@@ -23,7 +24,8 @@ struct BatchOptions {
 std::vector<std::string> launchArguments(int argc, char** argv);
 
 /// Runs the shards of a benchmark run, each in `<run>/shards/<i>` with a master of its own on the
-/// loopback interface, then merges them into `<run>` and prints the summary.
+/// loopback interface unless that is not wanted, then merges them into `<run>` and prints the
+/// summary.
 ///
 /// Shards that are complete are kept. SIGINT and SIGTERM end all in order; whatever ended a run,
 /// the next one goes on.
@@ -57,6 +59,7 @@ struct PaperOptions {
   std::vector<std::string> methods;  ///< to run; empty = all of the paper
   std::string plugin;                ///< library of the methods that are not the paper's
   std::string parameters;            ///< parameter file of those methods
+  std::string client;                ///< command that starts a client, in place of a plugin
   std::string kind = "local";        ///< kind of the problems that those methods are given
   std::vector<std::string> sequences{"all"};
   int subset = 0;            ///< number of problems per method, 0 = all
@@ -75,7 +78,9 @@ std::vector<std::string> paperMethods();
 /// What is complete is kept, what was interrupted goes on. A method that fails does not keep the
 /// others from running; the report is of all that are complete, those of earlier calls too.
 /// @return  exit status: 0 only if every problem of every method has its result and was reported.
-/// @throws pcrb::Error  if a method is neither the paper's nor can be a plugin's, a folder holds a
+/// A method that is not the paper's is the plugin's or the client's; with a client and no such
+/// method it is called `client`.
+/// @throws pcrb::Error  if a method is neither the paper's nor can be the user's, a folder holds a
 ///                      run of another configuration, or nothing is complete.
 int runPaperTool(const PaperOptions& options);
 

@@ -18,7 +18,7 @@ namespace {
 struct Experiment {
   std::string method;
   std::string kind;
-  bool is_own = false;  ///< a method of the user's plugin
+  bool is_own = false;  ///< a method of the user's plugin, or the user's client
 };
 
 /// The paper gives global methods the global problems, without an initial guess.
@@ -46,22 +46,28 @@ Experiment experimentOf(const std::string& method, const PaperOptions& options) 
   if (found != kExperiments.end()) return *found;
   const auto* baseline = std::find_if(kBaselines.begin(), kBaselines.end(), is_it);
   if (baseline != kBaselines.end()) return *baseline;
-  if (!options.plugin.empty()) return {method, options.kind, true};
+  if (!options.plugin.empty() || !options.client.empty()) return {method, options.kind, true};
   throw pcrb::InvalidParameter(
       "found method `" + method +
       "`, expected icp, gicp, ndt, ppcr, ransac, fgr or teaser, one of the baselines (icp_pcl, "
-      "gicp_pcl, ndt_pcl, ndt_1m, ndt_coarse_to_fine, ppcr_text, do_nothing), or a plugin that "
-      "has it");
+      "gicp_pcl, ndt_pcl, ndt_1m, ndt_coarse_to_fine, ppcr_text, do_nothing), or a plugin or "
+      "a client that has it");
 }
 
 std::vector<Experiment> chosen(const PaperOptions& options) {
-  if (options.methods.empty()) return {kExperiments.begin(), kExperiments.end()};
+  if (!options.client.empty() && !options.plugin.empty()) {
+    throw pcrb::InvalidParameter("--client and --plugin: found both, expected one of them");
+  }
   std::vector<Experiment> experiments;
+  if (options.methods.empty()) experiments = {kExperiments.begin(), kExperiments.end()};
   for (const std::string& method : options.methods) {
     const bool is_new = std::none_of(experiments.begin(), experiments.end(),
                                      [&](const Experiment& e) { return e.method == method; });
     if (is_new) experiments.push_back(experimentOf(method, options));
   }
+  const bool has_own = std::any_of(experiments.begin(), experiments.end(),
+                                   [](const Experiment& e) { return e.is_own; });
+  if (!options.client.empty() && !has_own) experiments.push_back({"client", options.kind, true});
   return experiments;
 }
 
@@ -78,10 +84,14 @@ BatchOptions batchOf(const PaperOptions& options, const Experiment& experiment) 
   batch.arguments = {"root:=" + options.root,
                      "sequences:=" + joinedSequences(options.sequences),
                      "kind:=" + experiment.kind,
-                     "method:=" + experiment.method,
                      "subset:=" + std::to_string(options.subset),
                      "seed:=" + std::to_string(options.seed),
                      "time_limit:=" + pcrb::formatShortest(options.time_limit)};
+  if (experiment.is_own && !options.client.empty()) {
+    batch.arguments.push_back("client_command:=" + options.client);
+    return batch;
+  }
+  batch.arguments.push_back("method:=" + experiment.method);
   if (!experiment.is_own) return batch;
   batch.arguments.push_back("plugin:=" + options.plugin);
   if (!options.parameters.empty()) batch.arguments.push_back("parameters:=" + options.parameters);

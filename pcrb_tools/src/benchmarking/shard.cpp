@@ -55,17 +55,19 @@ bool Shard::tryStart() {
   fs::create_directories(folder());
   lock_ = std::make_unique<pcrb::FileLock>(folder() + "/batch.lock");
   if (!lock_->isHeld()) return false;
-  port_ = std::make_unique<ReservedPort>();
   pcrb::ProgramStart start;
   start.command = settings_->command;
   start.command.push_back("run:=" + folder());
   start.command.push_back("shard:=" + std::to_string(number_) + "/" +
                           std::to_string(settings_->shards));
-  start.environment = {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(port_->number())},
-                       {"ROS_IP", "127.0.0.1"},
-                       {"ROS_HOSTNAME", std::nullopt},
-                       {"ROS_NAMESPACE", std::nullopt},
-                       {"ROS_LOG_DIR", folder() + "/log"}};
+  if (settings_->own_masters) {
+    port_ = std::make_unique<ReservedPort>();
+    start.environment = {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(port_->number())},
+                         {"ROS_IP", "127.0.0.1"},
+                         {"ROS_HOSTNAME", std::nullopt},
+                         {"ROS_NAMESPACE", std::nullopt}};
+  }
+  start.environment["ROS_LOG_DIR"] = folder() + "/log";
   if (settings_->scratch.empty()) {
     tmpdir_ = std::make_unique<TemporaryFolder>("pcrb_shard");
     start.environment["TMPDIR"] = tmpdir_->path();

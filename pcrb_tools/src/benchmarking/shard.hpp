@@ -20,6 +20,7 @@ struct ShardSettings {
   int shards = 1;
   std::vector<std::string> command;  ///< roslaunch with its arguments, but for `run` and `shard`
   std::string scratch;  ///< folder for logs and temporary files; none: with the results
+  bool own_masters = true;
 };
 
 /// One part of a batch: a run folder of its own, worked on by a roslaunch with its own master.
