@@ -255,7 +255,7 @@ py::object nextProblem(pcrb::InProcessRun& run) {
   fields["source_intensity"] = intensityArray(problem->source_intensity);
   fields["guess"] = py::cast(Eigen::Matrix4d(problem->guess.matrix()));
   fields["has_guess"] = problem->has_guess;
-  return std::move(fields);
+  return py::object(fields);
 }
 
 pcrb::Submission poseSubmission(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw) {
@@ -281,10 +281,10 @@ py::tuple positionAndOrientation(const Rows& rows) {
 
 std::unique_ptr<pcrb::InProcessRun> makeRun(const std::string& root,
                                             const std::vector<std::string>& sequences,
-                                            const std::vector<std::string>& kinds, std::size_t subset,
-                                            std::uint64_t seed, const std::string& presentation,
-                                            double time_limit, const std::string& folder,
-                                            const std::string& name) {
+                                            const std::vector<std::string>& kinds,
+                                            std::size_t subset, std::uint64_t seed,
+                                            const std::string& presentation, double time_limit,
+                                            const std::string& folder, const std::string& name) {
   pcrb::InProcessRunOptions options;
   options.run = folder;
   options.client = name;

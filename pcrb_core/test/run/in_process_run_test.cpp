@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/run/results_store.hpp"
 #include "run/run_fixture.hpp"

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -74,7 +75,8 @@ std::set<std::pair<std::string, std::string>> realDifferences(const Table& compa
   for (const auto& row : comparisons.rows) {
     if (reader.text(row, "selection") != "total" || reader.text(row, "better").empty()) continue;
     const std::string a = reader.text(row, "a"), b = reader.text(row, "b");
-    real.insert({{a, b}, {b, a}});
+    real.emplace(a, b);
+    real.emplace(b, a);
   }
   return real;
 }
