@@ -4,17 +4,20 @@ its colour in it, and one, its topic being off, without.
 
 PCRB_PICTURES=FOLDER keeps the pictures, for people to look at.
 """
+import glob
 import os
 import sys
 
+import numpy as np
 import roslib.packages
 import rospy
 import rostest
 import yaml
+from sensor_msgs.msg import Image
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, executable
+from pcrb_testing import Child, TestCase, executable, wait_until
 from pcrb_testing_screen import Screen, count, require_screen, wait_for_colors
 
 WHITE = (255, 255, 255)  # of texts
@@ -94,6 +97,24 @@ class LookTest(TestCase):
         self.run_of_guesses()
         self.replay(run=self.path('run'))
         self.assert_shows_every_role('benchmark')
+
+    def test_the_view_fits_the_data_and_a_panel_says_what_is_shown(self):
+        self.run_of_guesses()
+        self.replay(run=self.path('run'), order='worst')
+        background, topics = roles('problems')
+        look = self.start(Child([executable('pcrb_tools', 'look'), rviz_configuration('problems')], HOME=self.folder,
+                                TMPDIR=self.folder, **self.screen.environment()))
+        panel = rospy.wait_for_message('/pcrb/panel', Image, 60)
+        pixels = np.frombuffer(panel.data, np.uint8).reshape(panel.height, panel.width, 3)
+        for role_color in topics.values():
+            self.assertGreater((pixels == role_color).all(axis=2).sum(), 100, role_color)
+        written = wait_until(lambda: glob.glob(self.path('pcrb_look*', 'problems.rviz')), 'rviz has a configuration')
+        with open(written[0]) as file:
+            distance = yaml.safe_load(file)['Visualization Manager']['Views']['Current']['Distance']
+        extent = np.ptp(self.data.clouds['hall', maths.SEQUENCES['hall'][0]], axis=0).max()
+        self.assertTrue(0.5 * extent < distance < 2.5 * extent, f'{distance} m of {extent} m')
+        wait_for_colors(self.screen, background, [topics['/pcrb/source_aligned']])
+        look.interrupt()
 
     def test_a_localization_node(self):
         self.run_of_guesses(presentation='localization')

@@ -404,6 +404,12 @@ TEST_F(ReportTest, PageOpensInABrowserAndShowsItsNumbersOnHover) {
       "--window-size=390,800 --user-data-dir=" +
       folder_.file("profile") + " file://" + options_.output + "/index.html 2>" + log);
   EXPECT_NE(page.find("data-tip=\"good, plain: median 0.10"), std::string::npos);
+  for (const std::string made :
+       {"<button type=\"button\">error</button>", "<button type=\"button\" title",
+        "aria-pressed=\"true\"", "class=\"filter\"", "class=\"copy\"",
+        "<title>good, plain: median 0.10"}) {
+    EXPECT_NE(page.find(made), std::string::npos) << made;
+  }
   EXPECT_EQ(read(log).find("CONSOLE"), std::string::npos) << read(log);
 }
 
