@@ -12,9 +12,9 @@ from places import NotBuilt  # noqa: F401  (for those who call programs)
 from options import Option, given
 from words import WORDS
 
-# What programs call otherwise.
-RENAMES = {'threads': 'jobs', 'radius': 'distance', 'upright': 'yaw-only', 'problems': 'kind', 'node-launch': 'node',
-           'sequence': 'name', 'stamps-file': 'scans', 'map-file': 'map', 'client-command': 'client'}
+# What launch files and nodes call otherwise.
+RENAMES = {'problems': 'kind', 'node-launch': 'node', 'sequence': 'name', 'stamps-file': 'scans', 'map-file': 'map',
+           'client-command': 'client'}
 NUMBER_LIMITS = {'POSITIVE': (1e-9, None), 'NONNEGATIVE': (0, None)}
 
 

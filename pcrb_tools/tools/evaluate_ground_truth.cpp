@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
                  "sequences, data sets or data_set/sequence [all]");
   app.add_option("--kind", kind, "kind of the problem files whose pairs are taken [local]")
       ->check(CLI::IsMember({"local", "global"}));
-  app.add_option("--radius", options.radius,
+  app.add_option("--distance,--radius", options.radius,
                  "distance beyond which points are no pair, m [the data set's overlap distance]")
       ->check(CLI::PositiveNumber);
   app.add_option("--pairs", options.max_pairs,
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
       "--import", options.imports,
       "files of misalignments instead, <data set>=<path>/<sequence>.csv, or the published "
       "<data set>=<path>/<sequence>_gt_check.dat");
-  app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_option("--jobs,--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_flag("--force", options.force, "replace files that this tool did not make");
   return pcrb_tools::runTool(app, argc, argv, [&] {
     options.kind = pcrb::kindFromString(kind);

@@ -104,7 +104,8 @@ CLI::Option* addThreadsOption(CLI::App& app, int& threads) {
   constexpr int kMostThreads = 1024;
   threads = pcrb::processorCount();
   return app
-      .add_option("--threads", threads, "number of threads, which does not change the result")
+      .add_option("--jobs,--threads", threads,
+                  "number of threads, which does not change the result")
       ->check(CLI::Range(1, kMostThreads))
       ->capture_default_str();
 }
