@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "pcrb_core/io/number.hpp"
+#include "pcrb_core/problem/problem.hpp"
+#include "support/report_fixture.hpp"
+#include "support/shared_data.hpp"
+
+namespace pcrb_tools {
+namespace {
+
+/// Standard output of a command.
+std::string outputOf(const std::string& command) {
+  std::string output;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t size = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    output.append(buffer.data(), size);
+  }
+  EXPECT_EQ(pclose(pipe), 0) << command;
+  return output;
+}
+
+TEST_F(ReportTest, PageIsOneFileThatAsksForNothingElse) {
+  options_.runs = {addRun("good", 0.1), addRun("bad", 0.2)};
+  options_.title = "A & B <tested>";
+  runReportTool(options_);
+  const std::string page = read(options_.output + "/index.html");
+  for (const std::string reference : {"src=", "@import", "url(", "http:", "https:", "fetch("}) {
+    EXPECT_EQ(page.find(reference), std::string::npos) << reference;
+  }
+  EXPECT_NE(page.find("<h1>A &amp; B &lt;tested&gt;</h1>"), std::string::npos);
+  EXPECT_NE(page.find("name=\"viewport\""), std::string::npos);
+}
+
+TEST_F(ReportTest, PublishedFiguresStandOnlyBesideProblemsThatNoToolDrew) {
+  options_.runs = {"gicp=" + addRun("run", 0.1)};
+  runReportTool(options_);
+  EXPECT_NE(read(options_.output + "/index.html").find("<th scope=\"col\">gicp, published</th>"),
+            std::string::npos);
+
+  pcrb::ResultsStore(folder_.file("run"), pcrb::ResultsStore::Access::kReadWrite)
+      .updateRunInfo("drawn_by eth/plain_local.txt", "sample_problems");
+  runReportTool(options_);
+  const std::string page = read(options_.output + "/index.html");
+  EXPECT_EQ(page.find("<th scope=\"col\">gicp, published</th>"), std::string::npos);
+  EXPECT_NE(page.find("No published figures stand beside plain"), std::string::npos);
+  EXPECT_NE(read(options_.output + "/report.md").find("other ones than the published ones"),
+            std::string::npos);
+}
+
+TEST_F(ReportTest, ItsTablesAndFiguresCompileInLatex) {
+  if (!fs::exists("/usr/bin/pdflatex")) GTEST_SKIP() << "pdflatex is not installed";
+  options_.draw_figures = true;
+  options_.runs = {addRun("good_one", 0.1), addRun("bad", 0.2, 5), addRun("ugly & 100 %", 0.3)};
+  runReportTool(options_);
+  std::ofstream(options_.output + "/paper.tex")
+      << "\\documentclass{article}\n\\usepackage{booktabs,graphicx}\n\\begin{document}\n"
+         "\\input{report}\\input{figures}\\end{document}\n";
+  const std::string log = outputOf(
+      "cd " + options_.output + " && pdflatex -interaction=nonstopmode -halt-on-error paper 2>&1");
+  EXPECT_NE(log.find("Output written on paper.pdf"), std::string::npos) << log;
+  EXPECT_EQ(log.find("multiply defined"), std::string::npos) << log;
+  EXPECT_EQ(log.find("Overfull \\hbox"), std::string::npos) << log;
+}
+
+TEST_F(ReportTest, PageOpensInABrowserAndShowsItsNumbersOnHover) {
+  if (!fs::exists("/usr/bin/chromium")) GTEST_SKIP() << "chromium is not installed";
+  options_.runs = {addRun("good", 0.1), addRun("bad", 0.2, 5)};
+  runReportTool(options_);
+  const std::string log = folder_.file("browser.log");
+  const std::string page = outputOf(
+      "/usr/bin/chromium --headless --no-sandbox --disable-gpu --dump-dom --enable-logging=stderr "
+      "--window-size=390,800 --user-data-dir=" +
+      folder_.file("profile") + " file://" + options_.output + "/index.html 2>" + log);
+  EXPECT_NE(page.find("data-tip=\"good, plain: median 0.10"), std::string::npos);
+  for (const std::string made :
+       {"<button type=\"button\">error</button>", "<button type=\"button\" title",
+        "aria-pressed=\"true\"", "class=\"filter\"", "class=\"copy\"",
+        "<title>good, plain: median 0.10"}) {
+    EXPECT_NE(page.find(made), std::string::npos) << made;
+  }
+  EXPECT_EQ(read(log).find("CONSOLE"), std::string::npos) << read(log);
+}
+
+}  // namespace
+}  // namespace pcrb_tools
