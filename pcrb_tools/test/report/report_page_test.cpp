@@ -1,18 +1,18 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <set>
+#include <string>
 
-#include "pcrb_core/io/number.hpp"
-#include "pcrb_core/problem/problem.hpp"
+#include "pcrb_core/run/results_store.hpp"
 #include "support/report_fixture.hpp"
-#include "support/shared_data.hpp"
 
 namespace pcrb_tools {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Standard output of a command.
 std::string outputOf(const std::string& command) {
