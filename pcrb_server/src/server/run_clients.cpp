@@ -85,12 +85,16 @@ std::string provenanceOfNode() {
   return text;
 }
 
-/// The subscribers; where there are none, also those that wait in another namespace.
-std::string describeListeners(const std::set<std::string>& names) {
+/// The subscribers; where there are none, also those that wait in another namespace; and what else
+/// the master says of why no client may come.
+std::string describeListeners(const std::set<std::string>& names) try {
   std::string text = joinNames(names);
-  if (!names.empty()) return text;
-  for (const auto& node : subscribersElsewhere(topics::kProblem)) text += "; but " + node;
-  return text;
+  if (names.empty()) {
+    for (const auto& node : subscribersElsewhere(topics::kProblem)) text += "; but " + node;
+  }
+  return text + conflictingPublishers();
+} catch (const Error& error) {  // a run goes on with what it has
+  return joinNames(names) + "; " + error.what();
 }
 
 double secondsSince(Clock::time_point start) {
@@ -128,8 +132,8 @@ bool RunClients::waitForReady() {
     if (wait != ProblemSession::Wait::kLimit) break;
     if (rest <= kReminderPeriod) giveUp(limit, is_first);
     std::cout << "waiting for a client to call " << ros::names::resolve(services::kReady)
-              << " (subscribed: " << describeListeners(publications_.listeners())
-              << conflictingPublishers() << ")" << std::endl;
+              << " (subscribed: " << describeListeners(publications_.listeners()) << ")"
+              << std::endl;
   }
   if (!session_.client().empty()) note({session_.client()});  // empty: it was skipped
   return true;
@@ -139,7 +143,7 @@ void RunClients::giveUp(double limit, bool is_first) const {
   throw Error("no client called `" + ros::names::resolve(services::kReady) + "` within " +
               formatShortest(limit) + " s (" + (is_first ? "~connect_limit" : "~ready_limit") +
               "; subscribed to `" + ros::names::resolve(topics::kProblem) +
-              "`: " + describeListeners(publications_.listeners()) + conflictingPublishers() +
+              "`: " + describeListeners(publications_.listeners()) +
               "); results so far are kept: start again with the same ~run to go on");
 }
 
