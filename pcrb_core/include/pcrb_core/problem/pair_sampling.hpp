@@ -47,8 +47,9 @@ enum class TopUp {
 
 /// Draws pairs evenly from the ten intervals of their overlaps, without replacement.
 ///
-/// Ten pairs (for 100) come from each interval; what an interval lacks, as TopUp says. Pairs repeat only when there are fewer than `count`: all
-/// are drawn once before any is drawn again. The result is sorted by interval.
+/// Ten pairs (for 100) come from each interval; what an interval lacks, as TopUp says. Pairs repeat
+/// only when there are fewer than `count`: all are drawn once before any is drawn again. The result
+/// is sorted by interval.
 /// @throws InvalidProblem  if there is no pair.
 /// Source: Fontana et al. 2021, section 3.3.
 std::vector<CloudPair> samplePairs(const std::vector<CloudPair>& eligible, std::size_t count,
