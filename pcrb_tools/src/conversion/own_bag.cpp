@@ -131,6 +131,7 @@ class OwnBag {
     }
     std::sort(placement.stamps.begin(), placement.stamps.end());
     placement.in_world = request_.in_world;
+    placement.T_body_sensor = request_.T_body_sensor.value_or(pcrb::Transform::Identity());
     placement.body = [this, world, body](pcrb::Stamp stamp) {
       return tree_.lookup(world, body, stamp, request_.max_gap);
     };
@@ -141,6 +142,10 @@ class OwnBag {
   Placement complete(Placement placement, const std::string& world, const std::string& named_body) {
     const std::string body = request_.body_frame.empty() ? named_body : request_.body_frame;
     if (!world.empty() && cloud_frame_ == world) {
+      if (request_.deskew) {
+        throw pcrb::InvalidParameter("--deskew: found clouds in the frame `" + world +
+                                     "` of the poses, expected them in their sensor's");
+      }
       placement.in_world = true;
       notes_.push_back("the clouds are in the frame `" + world + "` of the poses");
     } else if (!placement.in_world) {
