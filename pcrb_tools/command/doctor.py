@@ -95,6 +95,10 @@ def workspace():
                           ('pcrb_tools', 'registration_node'), ('pcrb_tools', 'evaluate_batch'), ('pcrb_tools', 'report')):
         if places.find_program(name, package) is None:
             yield 'fix', name, './catkin_ws_setup.sh build'
+    try:
+        yield 'ok', 'python3 pcrb', os.path.dirname(places.core().__file__)
+    except places.NotBuilt:
+        yield 'fix', 'python3 pcrb', 'apt install pybind11-dev python3-numpy, then ./catkin_ws_setup.sh build'
     yield 'ok', 'methods', ', '.join(places.known_methods())
 
 
