@@ -62,7 +62,7 @@ struct InProcessRun::Impl {
     problem.data_set = key.data_set;
     problem.sequence = key.sequence;
     problem.kind = key.kind;
-    problem.target = coordinatesOf(shown.target->cloud, Transform::Identity());
+    problem.target = coordinatesOf(shown.target->cloud, shown.presentation.target_applied);
     problem.source = coordinatesOf(shown.source->cloud, shown.presentation.applied);
     problem.target_intensity = shown.target->cloud.intensity;
     problem.source_intensity = shown.source->cloud.intensity;
