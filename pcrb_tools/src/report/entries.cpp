@@ -97,7 +97,9 @@ void addSeries(const NamedPath& place, const std::string& name, const std::vecto
     for (const SeriesRun& run : runs) {
       if (run.value != value) continue;
       frame.parameter = run.parameter;
-      addResults(place.path + "/" + run.folder, run.trial, frame, problems);
+      const std::string folder = place.path + "/" + run.folder;
+      addResults(folder, run.trial, frame, problems);
+      frame.trial_folders[run.trial] = folder;
       ++frame.trials;
     }
     frame.value = value;

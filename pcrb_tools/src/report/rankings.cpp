@@ -15,18 +15,28 @@ constexpr std::size_t kWorstPerMethod = 10;
 /// Each method's median error of each pair of clouds, over the problems that all methods have.
 std::vector<std::vector<double>> mediansByPair(const Section& section) {
   const std::size_t methods = section.entries.size();
-  std::map<pcrb::ProblemKey, std::vector<const ScoredProblem*>> by_problem;
-  for (const Entry* entry : section.entries) {
-    for (const ScoredProblem& problem : entry->problems) {
-      by_problem[problem.key].push_back(&problem);
+  struct Shared {
+    std::string pair;
+    std::vector<std::vector<double>> errors;  // of all trials
+  };
+  std::map<pcrb::ProblemKey, Shared> by_problem;
+  for (std::size_t i = 0; i < methods; ++i) {
+    for (const ScoredProblem& problem : section.entries[i]->problems) {
+      Shared& shared = by_problem[problem.key];
+      shared.pair = problem.pair;
+      shared.errors.resize(methods);
+      shared.errors[i].push_back(problem.error);
     }
   }
   std::map<std::string, std::vector<std::vector<double>>> by_pair;
-  for (const auto& [key, problems] : by_problem) {
-    if (problems.size() != methods) continue;
-    auto& errors = by_pair[problems.front()->pair];
+  for (const auto& [key, shared] : by_problem) {
+    const auto lacks = [](const std::vector<double>& errors) { return errors.empty(); };
+    if (std::any_of(shared.errors.begin(), shared.errors.end(), lacks)) continue;
+    auto& errors = by_pair[shared.pair];
     errors.resize(methods);
-    for (std::size_t i = 0; i < methods; ++i) errors[i].push_back(problems[i]->error);
+    for (std::size_t i = 0; i < methods; ++i) {
+      errors[i].insert(errors[i].end(), shared.errors[i].begin(), shared.errors[i].end());
+    }
   }
   std::vector<std::vector<double>> medians;
   for (const auto& [pair, errors] : by_pair) {
@@ -117,8 +127,11 @@ std::string quotedForShell(const std::string& text) {
 }
 
 /// What shows a problem of a run, and nothing else.
-std::string replayCommand(const Entry& entry, const pcrb::ProblemKey& key) {
-  const std::string run = std::filesystem::absolute(entry.path).lexically_normal();
+std::string replayCommand(const Entry& entry, const ScoredProblem& problem) {
+  const pcrb::ProblemKey& key = problem.key;
+  const auto trial = entry.trial_folders.find(problem.trial);
+  const std::string& folder = trial == entry.trial_folders.end() ? entry.path : trial->second;
+  const std::string run = std::filesystem::absolute(folder).lexically_normal();
   return "pcrb replay --run " + quotedForShell(run) + " --sequences " +
          quotedForShell(key.data_set + "/" + key.sequence) + " --kind " + toString(key.kind) +
          " --problem " + quotedForShell(key.problem_id) + " --rviz";
@@ -132,7 +145,7 @@ Json describeWorst(const Section& section, const Entry& entry, const ScoredProbl
   json["misalignment"] =
       problem.initial_misalignment ? Json(*problem.initial_misalignment) : Json(nullptr);
   json["outcome"] = pcrb::toString(problem.outcome);
-  json["command"] = entry.info ? Json(replayCommand(entry, problem.key)) : Json(nullptr);
+  json["command"] = entry.info ? Json(replayCommand(entry, problem)) : Json(nullptr);
   return json;
 }
 

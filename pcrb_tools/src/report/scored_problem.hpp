@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,13 +45,14 @@ struct ScoredProblem {
 struct Entry {
   std::string method;
   pcrb::Kind kind = pcrb::Kind::kLocal;
-  std::string path;                     ///< run folder or file
-  std::optional<pcrb::RunInfo> info;    ///< of a run; imports have none
-  int trials = 1;                       ///< of which the problems are, each of every trial
-  std::string series;                   ///< of a run of a sweep: what all its runs are called
-  std::string parameter;                ///< that is swept; empty = none
-  std::string value;                    ///< of that parameter
-  std::vector<ScoredProblem> problems;  ///< ordered by key and trial
+  std::string path;                          ///< run folder or file
+  std::optional<pcrb::RunInfo> info;         ///< of a run; imports have none
+  int trials = 1;                            ///< of which the problems are, each of every trial
+  std::string series;                        ///< of a run of a sweep: what all its runs are called
+  std::string parameter;                     ///< that is swept; empty = none
+  std::string value;                         ///< of that parameter
+  std::map<int, std::string> trial_folders;  ///< of a series: each trial's run
+  std::vector<ScoredProblem> problems;       ///< ordered by key and trial
 };
 
 /// Names the pair of clouds: by its clouds where they are known, by the official id where it is one

@@ -291,6 +291,9 @@ TEST_F(ReportTest, ShowsTrialsAndSweepsOfASeries) {
     EXPECT_EQ(row["problems"], "40");
     EXPECT_EQ(row["pairs"], "20");
   }
+  const std::string command = report["sections"][0]["worst"][1]["problems"][0]["command"];
+  EXPECT_NE(command.find("/series/voxel_leaf=0.4/trial_1 "), std::string::npos) << command;
+  EXPECT_EQ(report["sections"][0]["charts"]["ranking"]["pairs"], 20);
   runReportTool(options_);
   EXPECT_NE(read(options_.output + "/index.html").find("mine: error over voxel_leaf"),
             std::string::npos);
