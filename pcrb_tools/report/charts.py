@@ -12,11 +12,18 @@ NEUTRAL = '#74839a'
 SMALLEST = 1e-4  # errors below it are drawn there on a logarithmic axis
 
 
+BASELINE = Ink(NEUTRAL, 'bow', '6 4')
+
+
+def inks_for(names):
+    """How each of some methods, or trackers, is drawn."""
+    return {name: Ink(COLORS[i % 8], SHAPES[i % 8], DASHES[(i + i // 8) % 8]) for i, name in enumerate(names)}
+
+
 def inks_of(section):
     """How the methods are drawn, and the baseline, which is none."""
-    inks = {method['method']: Ink(COLORS[i % 8], SHAPES[i % 8], DASHES[(i + i // 8) % 8])
-            for i, method in enumerate(section['methods'])}
-    return {**inks, **({section['baseline']: Ink(NEUTRAL, 'bow', '6 4')} if section['baseline'] else {})}
+    inks = inks_for([method['method'] for method in section['methods']])
+    return {**inks, **({section['baseline']: BASELINE} if section['baseline'] else {})}
 
 
 def rows_of(table):
@@ -145,8 +152,7 @@ def overlaps(panel):
                   f'overlaps of the pairs, {panel["selection"]}')
     for i, pairs in enumerate(panel['counts']):
         if pairs:
-            chart.box((edges[i], 0), (edges[i + 1], pairs), NEUTRAL,
-                      f'overlap {edges[i]:.3f} to {edges[i + 1]:.3f}: {pairs} pairs')
+            chart.box((edges[i], 0), (edges[i + 1], pairs), NEUTRAL, f'overlap {edges[i]:.3f} to {edges[i + 1]:.3f}: {pairs} pairs')
     chart.line(chart.at(panel['median'], 0), chart.at(panel['median'], chart.y.high), 'median',
                title=f'median {panel["median"]:.3f}')
     return chart

@@ -29,7 +29,7 @@ def draw_page(report, figures):
     sections = [page.view(section, figures.get(section['kind'], [])) for section in report['sections']]
     return environment.get_template('page.html.j2').render(
         title=report['title'], version=report['version'], sections=sections,
-        trackers=tracking.view(report['trackers']), **static)
+        trackers=tracking.view(report['trackers'], figures.get('tracking', [])), **static)
 
 
 def main():

@@ -118,16 +118,17 @@ class Drawing:
     def circle(self, at, radius, kind, color, title=None, method=None):
         self.marks.append(('circle', [at], {'kind': kind, 'color': color, 'title': title, 'method': method, 'radius': radius}))
 
-    def squares(self, points, size, kind):
-        """Many small squares, from their corners."""
-        self.marks.append(('squares', list(points), {'kind': kind, 'method': None, 'size': size}))
-
     def symbol(self, at, radius, kind, ink, title=None, method=None):
         """A method's mark in its shape."""
         if ink.shape == 'circle':
             self.circle(at, radius, kind, ink.color, title, method)
         else:
             self.polygon([(at[0] + radius * x, at[1] + radius * y) for x, y in SHAPES[ink.shape]], kind, ink.color, title, method)
+
+    def squares(self, points, size, kind):
+        """Many small squares, one mark."""
+        if points:
+            self.marks.append(('squares', list(points), {'kind': kind, 'method': None, 'size': size}))
 
     def text(self, x, y, text, kind='', anchor='middle', method=None, upright=False):
         self.marks.append(('text', [(x, y)], {'kind': kind, 'text': text, 'anchor': anchor, 'method': method, 'upright': upright}))
@@ -153,17 +154,17 @@ def element(name, points, style):
     if style.get('dash'):
         text += f' stroke-dasharray="{style["dash"]}"'
     title = f'<title>{escape(style["title"])}</title>' if style.get('title') else ''
-    flat = [coordinate(value) for point in points for value in point]
+    (x, y), flat = points[0], [coordinate(value) for point in points for value in point]
     if name == 'line':
         return f'<line x1="{flat[0]}" y1="{flat[1]}" x2="{flat[2]}" y2="{flat[3]}"{text}>{title}</line>'
+    if name == 'squares':
+        size = coordinate(style['size'])
+        return '<path d="' + ''.join(f'M{a} {b}h{size}v{size}h-{size}z' for a, b in zip(flat[::2], flat[1::2])) + f'"{text}/>'
     if name == 'circle':
         return f'<circle cx="{flat[0]}" cy="{flat[1]}" r="{coordinate(style["radius"])}"{text}>{title}</circle>'
     if name == 'text':
         place = f'transform="translate({flat[0]} {flat[1]}) rotate(-90)"' if style['upright'] else f'x="{flat[0]}" y="{flat[1]}"'
         return f'<text {place} text-anchor="{style["anchor"]}"{text}>{escape(style["text"])}</text>'
-    if name == 'squares':
-        side = coordinate(style['size'])
-        return '<path d="' + ''.join(f'M{a} {b}h{side}v{side}h-{side}z' for a, b in zip(flat[::2], flat[1::2])) + f'"{text}/>'
     where = ' '.join(f'{a},{b}' for a, b in zip(flat[::2], flat[1::2]))
     return f'<{name} points="{where}"{text}>{title}</{name}>'
 

@@ -6,10 +6,14 @@ import matplotlib
 
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
+from matplotlib.collections import PolyCollection  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.patches import Circle, Polygon  # noqa: E402
 
+import calibration  # noqa: E402
 import charts  # noqa: E402
+import series  # noqa: E402
+import tracking  # noqa: E402
 from drawing import WIDTH, Drawing  # noqa: E402
 
 POINTS = 7.16 / (2 * WIDTH) * 72  # per unit: two charts are as wide as both columns of a page, 7.16 inches
@@ -18,7 +22,8 @@ INK, SOFT, RULE = '#1d2430', '#4a5360', '#dde2e9'
 STYLE = {'grid': {'color': RULE, 'width': 1}, 'axis': {'color': SOFT, 'width': 1}, 'whisker': {'width': 1.6}, 'interval': {'width': 2.6,
          'alpha': 0.6}, 'floor': {'color': '#c0392b', 'width': 2}, 'median': {'color': INK, 'width': 1.8, 'dash': '5 3'},
          'curve': {'width': 2.2}, 'gaussian': {'color': INK, 'width': 1.4}, 'front': {'color': SOFT, 'width': 1.4, 'dash': '5 4'},
-         'band': {'alpha': 0.13}, 'quartiles': {'alpha': 0.55}, 'clique': {'color': INK, 'width': 5}, 'stem': {'width': 1.6}}
+         'band': {'alpha': 0.13}, 'quartiles': {'alpha': 0.55}, 'clique': {'color': INK, 'width': 5}, 'stem': {'width': 1.6},
+         'ground': {'color': SOFT, 'alpha': 0.45}}
 LETTERS = {'tick': 13, 'name': 14, 'group': 14, 'beyond': 12, 'title': 15, 'label': 14}
 
 
@@ -33,6 +38,9 @@ def put(axes, name, points, style, zorder):
                              linestyle=pattern, solid_capstyle='round', solid_joinstyle='round', zorder=zorder))
     elif name == 'polygon':
         axes.add_patch(Polygon(points, closed=True, facecolor=color, edgecolor='none', alpha=kind.get('alpha'), zorder=zorder))
+    elif name == 'squares':
+        squares = [[(x, y), (x + style['size'], y), (x + style['size'], y + style['size']), (x, y + style['size'])] for x, y in points]
+        axes.add_collection(PolyCollection(squares, facecolor=color, edgecolor='none', alpha=kind.get('alpha'), zorder=zorder))
     elif name == 'circle':
         axes.add_patch(Circle(points[0], style['radius'], facecolor=color, edgecolor='none', zorder=zorder))
     else:
@@ -117,7 +125,9 @@ def figures_of(section):
     for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap'), ('over_scans', 'scan')):
         if numbers[name]:
             yield (name, sheet([(p['selection'], charts.binned(p, inks, x_name)) for p in numbers[name]], methods),
-                   f'Error over the {x_name}, {kind} problems: medians of bins that hold equally many problems, and their quartiles.')
+                   f'Error over the {x_name}, {kind} problems: '
+                   + ('medians and quartiles; a problem that ended before keeps its last answer.' if name == 'over_scans' else
+                      'medians of bins that hold equally many problems, and their quartiles.'))
     for method, ink in methods.items():
         panels = [(p['selection'], charts.histogram(m, ink, p['selection'])) for p in numbers['histograms'] for m in p['methods']
                   if m['method'] == method]
@@ -132,6 +142,15 @@ def figures_of(section):
                                     ('rotation', charts.components(tables['components'], inks, ['roll', 'pitch', 'yaw'], 'degrees'))],
                                    methods), f'Errors along and about each axis, answered {kind} problems: median, quartiles, and the '
                'quantiles 0.05 to 0.95.')
+    swept = series.sweeps(tables['sweeps']) if tables.get('sweeps') else []
+    if swept:
+        yield ('sweeps', sheet([(chart['name'], chart['drawing']) for chart in swept]),
+               f'Median error over the values of a parameter, {kind} problems, with 95 % bootstrap intervals over pairs of clouds.')
+    calibrated = calibration.curves(numbers['calibration'], inks)
+    if calibrated:
+        yield ('calibration', sheet([('', calibrated)], {curve['method']: inks[curve['method']] for curve in numbers['calibration']['curves']}),
+               f'Fraction of the errors that lie in the ellipsoid of each probability, {kind} problems. Dashed: right covariances; a '
+               'curve below says too little (overconfident), one above too much.')
     latency = charts.latencies(tables['runtimes'], inks) if tables.get('runtimes') else None
     if latency:
         yield ('latencies', sheet([('', latency)]), f'Time from a source to its reply, {kind} problems: median, quantiles 0.05 to 0.95.')
@@ -159,14 +178,26 @@ def latex(text):
     return ''.join('\\' + c if c in '_%&#$' else c for c in text)
 
 
+def figures_of_trackers(trackers):
+    """The same for trackers."""
+    for number, group in enumerate(tracking.view(trackers)['groups'], 1):
+        yield (f'paths_{number}', sheet([('', group['paths'])], group['inks']),
+               'Trajectories over the map of the scans, from above. Grey and dashed: the truth.')
+        yield (f'errors_{number}', sheet([('', group['errors'])], group['inks']),
+               "The benchmark's error of each scan over time. At the bottom: scans at which the tracker was lost.")
+
+
 def draw(report, folder):
-    """All figures, and figures.tex with a caption for each; their names and captions by kind."""
+    """All figures, and figures.tex with a caption for each; their names and captions by kind, those of trackers by `tracking`."""
+    parts = [(section['kind'], figures_of(section)) for section in report['sections']]
+    if report['trackers']:
+        parts.append(('tracking', figures_of_trackers(report['trackers'])))
     text, listed = '% All figures, each to be cut out, or all by \\input\n% \\usepackage{graphicx}\n\n', {}
     with plt.rc_context({'pdf.fonttype': 42, 'figure.dpi': 200, 'savefig.dpi': 200}):
-        for section in report['sections']:
-            for name, drawing, caption in figures_of(section):
-                name = f'{section["kind"]}_{name}'
+        for kind, figures in parts:
+            for name, drawing, caption in figures:
+                name = f'{kind}_{name}'
                 save(drawing, folder / 'figures', name)
                 text += ENVIRONMENT % ('' if drawing.width > WIDTH else '0.6', name, latex(caption), name.replace('_', '-'))
-                listed.setdefault(section['kind'], []).append((name, caption))
+                listed.setdefault(kind, []).append((name, caption))
     return text, listed

@@ -9,7 +9,8 @@ from drawing import WIDTH, error, interval
 PARTS = [('medians', 'medians'), ('scores', 'scores'), ('differences', 'differences'), ('audit', 'audit'), ('solved', 'solved'),
          ('dependence', 'dependence'), ('distributions', 'distributions'), ('series', 'repeats and sweeps'), ('axes', 'axes'),
          ('covariances', 'covariances'), ('times', 'times'), ('settling', 'settling'), ('overlap', 'overlap'),
-         ('sequences', 'sequences'), ('problems', 'worst problems'), ('published', 'published'), ('figures', 'figures')]
+         ('sequences', 'sequences'), ('problems', 'worst problems'), ('published', 'published'),
+         ('figures', 'figures')]
 HEADINGS = {'sequence': 'Sequences', 'data set': 'Data sets', 'group': 'By characteristic', 'total': 'All problems'}
 
 
@@ -187,6 +188,7 @@ def view(section, figures):
         'bars': [svg(charts.median_dots(scores, inks, floors, width), kind) for width, kind in ((2 * WIDTH, 'wide'), (WIDTH, 'narrow'))],
         'levels': pivot_of(section, published),
         'verdicts': list(verdicts_of(comparisons)),
+        'audit': audit_of(section, charts.rows_of(present['audit'])) if 'audit' in present else None,
         'matrix': matrix_of(own, comparisons) if len(own) > 2 else [],
         'ranking': svg(charts.ranking(numbers['ranking'], inks)) if numbers['ranking'] else None,
         'solved': svg(charts.solved_curves(section, inks)),
@@ -195,14 +197,13 @@ def view(section, figures):
         'overlaps': drawn(numbers['overlaps'], charts.overlaps),
         'recall_totals': only_totals(present['recall']) if 'recall' in present else None,
         'runtime_totals': only_totals(present['runtimes']) if 'runtimes' in present else None,
-        'latencies': svg(charts.latencies(present['runtimes'], inks)) if 'runtimes' in present else None,
-        'over_time': svg(charts.error_over_time(numbers['times'], inks)) if numbers['times'] else None,
-        'audit': audit_of(section, charts.rows_of(present['audit'])) if 'audit' in present else None,
         'over_scans': drawn(numbers['over_scans'], lambda panel: charts.binned(panel, inks, 'scan')),
         'covariance_totals': only_totals(present['covariances']) if 'covariances' in present else None,
-        'sweep_charts': [{**chart, 'svg': svg(chart['svg'])} for chart in series.sweeps(present['sweeps'])]
+        'sweep_charts': [{'name': chart['name'], 'svg': svg(chart['drawing'])} for chart in series.sweeps(present['sweeps'])]
                         if 'sweeps' in present else [],
         'calibration': svg(calibration.curves(numbers['calibration'], inks)),
+        'latencies': svg(charts.latencies(present['runtimes'], inks)) if 'runtimes' in present else None,
+        'over_time': svg(charts.error_over_time(numbers['times'], inks)) if numbers['times'] else None,
     }
     if 'components' in present:
         made['translation'] = svg(charts.components(present['components'], inks, ['x', 'y', 'z'], 'm'))

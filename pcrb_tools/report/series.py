@@ -1,6 +1,6 @@
 """Charts of sweeps: the median error over the values of a parameter."""
 import charts
-from drawing import Chart, Ink, Linear, Logarithmic, error, interval
+from drawing import Chart, Linear, Logarithmic, error, interval
 
 
 def sweeps(table):
@@ -9,7 +9,7 @@ def sweeps(table):
     for row in charts.rows_of(table):
         if isinstance(row['value'], (int, float)):
             groups.setdefault((row['series'], row['parameter']), []).append(row)
-    return [{'name': f'{series}: error over {parameter}', 'svg': curve(parameter, rows)}
+    return [{'name': f'{series}: error over {parameter}', 'drawing': curve(parameter, rows)}
             for (series, parameter), rows in groups.items()]
 
 
@@ -21,7 +21,7 @@ def curve(parameter, rows):
     ends = [row[name] for row in rows for name in ('low', 'median', 'high') if row[name] is not None]
     low, high = max(min(ends), charts.SMALLEST), max(max(ends), 2 * charts.SMALLEST)
     chart = Chart(x, Logarithmic(low / 1.3, high * 1.3), parameter, 'median error', label=f'error over {parameter}')
-    ink = Ink(charts.COLORS[0])
+    ink = charts.inks_for([parameter])[parameter]
     known = [row for row in rows if row['low'] is not None]
     if len(known) > 1:
         chart.band([(row['value'], row['low']) for row in known], [(row['value'], row['high']) for row in known], ink.color)

@@ -17,43 +17,43 @@ def paths(group, inks):
     x, y = square(everything)
     chart = Chart(x, y, 'x (m)', 'y (m)', 414, 'trajectories over the map')
     chart.squares([chart.at(*point) for point in group['map']], 1.6, 'ground')
-    chart.polyline([chart.at(*point) for point in group['truth']], 'truth', None)
+    chart.curve(group['truth'], charts.BASELINE)
     for tracker in group['trackers']:
-        chart.curve(tracker['path'], inks[tracker['name']])
+        chart.curve(tracker['path'], inks[tracker['name']], method=tracker['name'])
         for point in tracker['path'][::max(1, len(tracker['path']) // 100)]:
-            chart.touch(*point, inks[tracker['name']].color, f'{tracker["name"]}: {point[0]:.2f}, {point[1]:.2f} m')
-    return chart.svg()
+            chart.touch(*point, inks[tracker['name']].color, f'{tracker["name"]}: {point[0]:.2f}, {point[1]:.2f} m', tracker['name'])
+    return chart
 
 
 def errors(group, inks):
     """The benchmark's error of each scan; a gap and a mark at the bottom where it was lost."""
-    values = [value for tracker in group['trackers'] for _, value in tracker['errors'] if value is not None]
+    values = [value for tracker in group['trackers'] for _, value in tracker['errors'] if value is not None] or [charts.SMALLEST]
     end = max(time for tracker in group['trackers'] for time, _ in tracker['errors'])
     low = max(min(values), charts.SMALLEST)
     chart = Chart(Linear(0, max(end, 1e-9)), Logarithmic(low / 1.3, max(max(values), 1.01 * low) * 1.3), 'time (s)', 'error',
                   label='error over time')
     for tracker in group['trackers']:
-        ink, run = inks[tracker['name']], []
+        name, ink, run = tracker['name'], inks[tracker['name']], []
         for time, value in [*tracker['errors'], (None, None)]:
             if value is not None:
                 run.append((time, max(value, charts.SMALLEST)))
                 continue
             if len(run) > 1:
-                chart.curve(run, ink)
+                chart.curve(run, ink, method=name)
             for point in run if len(run) == 1 else ():
-                chart.dot(*point, ink, f'{tracker["name"]}: {error(point[1])}')
+                chart.dot(*point, ink, f'{name}: {error(point[1])}', name)
             run = []
             if time is not None:
-                chart.dot(time, chart.y.low, ink, f'{tracker["name"]}: lost at {time:.2f} s')
-    return chart.svg()
+                chart.dot(time, chart.y.low, ink, f'{name}: lost at {time:.2f} s', name)
+    return chart
 
 
-def view(trackers):
+def view(trackers, figures=()):
     """Charts of each group of trackers that had the same scans; None without trackers."""
     if not trackers:
         return None
-    names = [row[0] for row in trackers['table']['rows']]
-    inks = charts.inks_of({'methods': [{'method': name} for name in names], 'baseline': None})
-    views = [{'names': ', '.join(tracker['name'] for tracker in group['trackers']),
-              'paths': paths(group, inks), 'errors': errors(group, inks)} for group in trackers['groups']]
-    return {'table': trackers['table'], 'colors': {name: ink.color for name, ink in inks.items()}, 'groups': views}
+    inks = charts.inks_for([row[0] for row in trackers['table']['rows']])
+    views = [{'names': ', '.join(tracker['name'] for tracker in group['trackers']), 'paths': paths(group, inks),
+              'errors': errors(group, inks), 'inks': {tracker['name']: inks[tracker['name']] for tracker in group['trackers']}}
+             for group in trackers['groups']]
+    return {'table': trackers['table'], 'inks': inks, 'groups': views, 'figures': figures}

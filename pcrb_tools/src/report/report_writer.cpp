@@ -69,8 +69,8 @@ Json publishedCorrelationsOf(const Section& section) {
 
 /// Of figures.py, behind `<kind>_`; histograms have the method's name behind theirs.
 constexpr const char* kFigures[] = {"medians",    "solved",   "over_misalignment", "over_overlap",
-                                    "over_scans", "overlaps", "components",        "latencies",
-                                    "times",      "ranking"};
+                                    "over_scans", "overlaps", "components",        "calibration",
+                                    "latencies",  "times",    "ranking",           "sweeps"};
 
 /// A name as figures.py has it in that of a file: without what LaTeX reads otherwise.
 std::string inFileName(std::string name) {
@@ -101,6 +101,13 @@ std::vector<std::string> filesOf(const Json& report) {
   }
   if (report.contains("trackers") && !report.at("trackers").is_null()) {
     files.emplace_back("tables/tracking_trackers.csv");
+    for (std::size_t i = 1; i <= report.at("trackers").at("groups").size(); ++i) {
+      for (const char* figure : {"paths_", "errors_"}) {
+        for (const char* extension : {".png", ".pdf"}) {
+          files.push_back("figures/tracking_" + (figure + std::to_string(i)) + extension);
+        }
+      }
+    }
   }
   return files;
 }
