@@ -177,11 +177,16 @@ py::list readResults(const std::string& folder) {
   return list;
 }
 
+/// A path of any bytes as Python has it.
+py::object pathText(const std::string& path) {
+  return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(path.c_str()));
+}
+
 py::list findSequences(const std::string& root) {
   py::list list;
   for (const pcrb::SequenceFiles& files : pcrb::findSequences(root)) {
-    list.append(
-        py::make_tuple(files.data_set, files.sequence, toString(files.kind), files.problem_file));
+    list.append(py::make_tuple(pathText(files.data_set), pathText(files.sequence),
+                               toString(files.kind), pathText(files.problem_file)));
   }
   return list;
 }
@@ -328,7 +333,7 @@ std::map<std::string, std::string> readRunInfo(const std::string& folder) {
 /// Raises a class of this module. A message may name a path of any bytes: Python's own escapes.
 void raise(const char* name, const std::exception& error) {
   const py::object type = py::module::import("pcrb._pcrb").attr(name);
-  const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(error.what()));
+  const py::object text = pathText(error.what());
   PyErr_SetObject(type.ptr(), text.ptr());
 }
 

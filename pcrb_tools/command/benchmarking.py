@@ -28,7 +28,7 @@ CHOICES = {'restart': ('never', 'target', 'problem'), 'settle': ('first', 'nth',
 def options_of(file, changes):
     options = []
     for option in launch_options(file):
-        if option.name not in OWN_SETTINGS:
+        if option.name not in OWN_SETTINGS:  # by the launch file's name: --node is its node_launch, --client its client_command
             option = shared(option)
             option = dataclasses.replace(option, choices=CHOICES.get(option.name, option.choices))
             options.append(dataclasses.replace(option, **changes.get(option.name, {})))
@@ -82,13 +82,14 @@ def is_series(values):
 
 def series_words(values):
     """What evaluate_batch is told of a series; nothing where it is one run."""
-    if not is_series(values):
-        return []
-    return ['--repeat', str(values['repeat']), *(['--sweep', values['sweep']] if values.get('sweep') else [])]
+    words = ['--repeat', str(values['repeat'])] if values['repeat'] > 1 else []
+    return words + (['--sweep', values['sweep']] if values.get('sweep') else [])
 
 
 def result_of_series(run):
     """The results of each run of a series, by its folder."""
+    if not os.path.isfile(os.path.join(run, 'series.csv')):
+        return {'run': run, 'runs': []}
     with open(os.path.join(run, 'series.csv'), encoding='utf-8', newline='') as file:
         return {'run': run, 'runs': [{**row, **result_of(os.path.join(run, row['folder']))} for row in csv.DictReader(file)]}
 
@@ -105,7 +106,7 @@ def method_mistakes(values):
     known = places.known_methods()
     names = [values['method']] if isinstance(values.get('method'), str) else values.get('method') or []
     if values.get('client'):
-        return ['--client and --plugin: found both, expected one of them'] if values.get('plugin') else []
+        return [f'--client and --{other}: found both, expected one of them' for other in ('plugin', 'sweep') if values.get(other)]
     strange = [name for name in names if name not in known]
     if not values.get('plugin'):
         return [f'--method: found `{name}`, expected {one_of(known)}, or --plugin or --client with your own{did_you_mean(name, known)}'

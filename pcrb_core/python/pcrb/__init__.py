@@ -148,7 +148,8 @@ def select_sequences(known, words):
     Raises InvalidParameter for a word that names none.
     """
     known = [tuple(pair) for pair in known]
-    return [known[i] for i in _pcrb.select_sequences(known, list(words))]
+    names = [tuple(map(os.fsencode, pair)) for pair in known]
+    return [known[i] for i in _pcrb.select_sequences(names, [os.fsencode(word) for word in words])]
 
 
 def methods():

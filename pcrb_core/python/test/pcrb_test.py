@@ -201,6 +201,14 @@ class AnyBytesTest(unittest.TestCase):
         np.testing.assert_array_equal(pcrb.read_pcd(pathlib.Path(path))['points'], points)
         self.assertEqual(os.listdir(self.folder), ['a.pcd'])
 
+    def test_sequences_are_found_and_selected(self):
+        data_set, sequence = (os.fsdecode(name) for name in (b'r\xe4ume', b'k\xfcche'))
+        os.mkdir(os.path.join(self.folder, data_set))
+        path = os.path.join(self.folder, data_set, f'{sequence}_local.txt')
+        pcrb.write_problems(path, [])
+        self.assertEqual(pcrb.find_sequences(self.folder), [(data_set, sequence, 'local', path)])
+        self.assertEqual(pcrb.select_sequences([(data_set, sequence), ('a', 'b')], [sequence]), [(data_set, sequence)])
+
     def test_errors_name_the_path(self):
         for function, error in ((pcrb.read_pcd, pcrb.InvalidFile), (pcrb.read_problems, pcrb.InvalidFile),
                                 (pcrb.read_results, pcrb.StoreError)):
