@@ -7,10 +7,9 @@ namespace {
 void addOptions(CLI::App& app, pcrb_tools::PaperOptions& options) {
   app.add_option("--root", options.root, "folder of the data sets")->required();
   app.add_option("--run", options.run, "folder of the runs and the report")->required();
-  app.add_option(
-      "--method,--methods", options.methods,
-      "methods to run, of the paper, baselines (icp_pcl, ndt_pcl, …, do_nothing), or of "
-      "your own; the report has all that are complete [the paper's seven]");
+  app.add_option("--method,--methods", options.methods,
+                 "methods to run, of the paper, baselines (icp_pcl, ndt_pcl, …, do_nothing), or of "
+                 "your own; the report has all that are complete [the paper's seven]");
   app.add_option("--plugin", options.plugin, "shared library of the methods of your own");
   app.add_option("--parameters", options.parameters,
                  "YAML file of the parameters of the methods of your own");

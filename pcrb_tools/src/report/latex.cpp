@@ -1,6 +1,7 @@
 #include "report/latex.hpp"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "pcrb_core/io/text.hpp"
@@ -13,6 +14,44 @@ constexpr std::size_t kGap = 2;              // letters between two columns
 constexpr std::size_t kRowsPerPage = 42;
 
 using Columns = std::vector<std::size_t>;  // positions
+
+/// Letters that LaTeX reads otherwise or does not know.
+const std::map<std::string, std::string> kLetters{{"\\", "\\textbackslash{}"},
+                                                  {"<", "$<$"},
+                                                  {">", "$>$"},
+                                                  {"~", "\\~{}"},
+                                                  {"^", "\\^{}"},
+                                                  {"\n", " "},
+                                                  {"_", "\\_"},
+                                                  {"%", "\\%"},
+                                                  {"&", "\\&"},
+                                                  {"#", "\\#"},
+                                                  {"$", "\\$"},
+                                                  {"{", "\\{"},
+                                                  {"}", "\\}"},
+                                                  {"°", "$^\\circ$"},
+                                                  {"±", "$\\pm$"},
+                                                  {"²", "$^2$"},
+                                                  {"¹", "$^1$"},
+                                                  {"⁻", "$^-$"},
+                                                  {"ᵀ", "$^T$"},
+                                                  {"χ", "$\\chi$"},
+                                                  {"σ", "$\\sigma$"},
+                                                  {"ρ", "$\\rho$"},
+                                                  {"Δ", "$\\Delta$"},
+                                                  {"µ", "$\\mu$"},
+                                                  {"–", "--"},
+                                                  {"…", "\\ldots{}"},
+                                                  {"≤", "$\\le$"},
+                                                  {"≥", "$\\ge$"},
+                                                  {"×", "$\\times$"}};
+
+/// Bytes of the letter of UTF-8 that begins there; 1 for what is none.
+std::size_t letterLength(const std::string& text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  const std::size_t length = first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  return std::min(length, text.size() - at);
+}
 
 /// Bytes of UTF-8 that begin a letter.
 std::size_t letters(const std::string& text) {
@@ -58,7 +97,7 @@ std::vector<Columns> columnParts(const Table& table) {
 }
 
 template <typename Cell>
-std::string line(const Columns& columns, const Cell& cell) {
+std::string latexLine(const Columns& columns, const Cell& cell) {
   std::string text;
   for (const std::size_t column : columns) {
     text += (text.empty() ? "" : " & ") + latexEscaped(cell(column));
@@ -68,9 +107,9 @@ std::string line(const Columns& columns, const Cell& cell) {
 
 std::string bodyOf(const Table& table, const Columns& columns, std::size_t begin, std::size_t end) {
   std::string body =
-      line(columns, [&](std::size_t i) { return table.columns[i].name; }) + "\\midrule\n";
+      latexLine(columns, [&](std::size_t i) { return table.columns[i].name; }) + "\\midrule\n";
   for (std::size_t row = begin; row < end; ++row) {
-    body += line(columns, [&](std::size_t i) {
+    body += latexLine(columns, [&](std::size_t i) {
       return cellText(table.rows[row][i], table.columns[i].format);
     });
   }
@@ -81,23 +120,16 @@ std::string bodyOf(const Table& table, const Columns& columns, std::size_t begin
 
 std::string latexEscaped(const std::string& text) {
   std::string escaped;
-  for (const char c : text) {
-    if (c == '\xC2') {
-      continue;  // of a degree sign, the one letter beyond ASCII that this suite writes
-    } else if (c == '\xB0') {
-      escaped += "$^\\circ$";
-    } else if (c == '\\') {
-      escaped += "\\textbackslash{}";
-    } else if (c == '<' || c == '>') {
-      escaped += std::string("$") + c + "$";
-    } else if (c == '~' || c == '^') {
-      escaped += std::string("\\") + c + "{}";
-    } else if (c == '\n') {
-      escaped += ' ';
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string letter = text.substr(at, letterLength(text, at));
+    const auto known = kLetters.find(letter);
+    if (known != kLetters.end()) {
+      escaped += known->second;
     } else {
-      if (std::string("_%&#${}").find(c) != std::string::npos) escaped += '\\';
-      escaped += c;
+      const bool is_latin = letter.size() == 2 || static_cast<unsigned char>(letter[0]) < 0x80;
+      escaped += is_latin ? letter : "?";
     }
+    at += letter.size();
   }
   return escaped;
 }

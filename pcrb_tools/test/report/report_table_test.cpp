@@ -58,6 +58,12 @@ TEST(ReportTable, IsDividedInLatexIntoPartsThatFitAPageWithLabelsOfTheirOwn) {
   }
 }
 
+TEST(ReportTable, HasInLatexNoLetterThatItDoesNotKnow) {
+  EXPECT_EQ(latexEscaped("5° ± 1 σ, 50 % of a_b"),
+            "5$^\\circ$ $\\pm$ 1 $\\sigma$, 50 \\% of a\\_b");
+  EXPECT_EQ(latexEscaped("café 中 \xff"), "café ? ?");
+}
+
 TEST(ReportTable, HasThreeSignificantDigitsAndNoZeroForWhatIsNone) {
   const auto text = [](double value) { return cellText(Json(value), Format::kError); };
   EXPECT_EQ(text(0.123456), "0.123");
