@@ -84,6 +84,8 @@ class PcrbCommandTest(TestCase):
         self.assert_refused(['run', '--root', self.data.root, '--run', run, '--method', 'gcip'], r'did you mean gicp\?')
         self.assert_refused(['run', '--root', self.data.root, '--run', run, '--sequences', 'kitchn'], r'did you mean kitchen\?')
         self.assert_refused(['run', '--run', run, '--root', self.path('nowhere')], 'expected a folder that is there')
+        self.assert_refused(['localize', '--root', self.data.root, '--run', run, '--node', 'hdl_localisation'],
+                            'expected a launch file, a package and its launch file, or hdl_localization, .*did you mean hdl_localization')
         self.assert_refused(['rnu'], r'did you mean run\?')
         self.assert_refused(['convert', 'kaitsu'], r'did you mean kaist\?')
         self.assert_refused(['compare', self.data.root], 'OLD: .*results.sqlite|NEW: must be given')
