@@ -170,6 +170,7 @@ ENVIRONMENT = '''\\begin{figure}[p]
 \\caption{%s}
 \\label{fig:pcrb-%s}
 \\end{figure}
+\\clearpage
 
 '''
 

@@ -9,8 +9,9 @@
 namespace pcrb_tools {
 namespace {
 
-constexpr std::size_t kLettersPerLine = 84;  // of \footnotesize in a page's width, with gaps
-constexpr std::size_t kGap = 2;              // letters between two columns
+constexpr std::size_t kLettersPerLine = 78;  // of \footnotesize in a page's width, with gaps
+constexpr std::size_t kGap = 3;              // letters between two columns
+constexpr std::size_t kWidestText = 28;  // letters; longer ones are broken, in a third of a line
 constexpr std::size_t kRowsPerPage = 42;
 
 using Columns = std::vector<std::size_t>;  // positions
@@ -64,14 +65,38 @@ std::size_t widthOf(const Table& table, std::size_t column) {
   for (const auto& row : table.rows) {
     width = std::max(width, letters(cellText(row[column], table.columns[column].format)));
   }
-  return width + kGap;
+  return width;
 }
 
-/// The first columns, of texts, name a row.
+/// Whether a column's texts are too long for one line each.
+bool isBroken(const Table& table, std::size_t column) {
+  return table.columns[column].format == Format::kText && widthOf(table, column) > kWidestText;
+}
+
+/// Letters that a column takes beside others.
+std::size_t roomOf(const Table& table, std::size_t column) {
+  return kGap + (isBroken(table, column) ? kWidestText : widthOf(table, column));
+}
+
+std::string alignmentOf(const Table& table, const Columns& columns) {
+  std::string alignment;
+  for (const std::size_t i : columns) {
+    const bool is_text = table.columns[i].format == Format::kText;
+    alignment += isBroken(table, i) ? "p{0.34\\linewidth}" : is_text ? "l" : "r";
+  }
+  return alignment;
+}
+
+/// The first columns, of texts, name a row, as far as they leave half a line to the others.
 std::size_t countKeys(const Table& table) {
-  std::size_t count = 0;
-  while (count + 1 < table.columns.size() && table.columns[count].format == Format::kText) ++count;
-  return std::max<std::size_t>(count, 1);
+  std::size_t count = 1;
+  std::size_t room = roomOf(table, 0);
+  while (count + 1 < table.columns.size() && table.columns[count].format == Format::kText) {
+    room += roomOf(table, count);
+    if (2 * room > kLettersPerLine) break;
+    ++count;
+  }
+  return count;
 }
 
 /// Columns that fit beside each other, those that name a row first in each part.
@@ -81,17 +106,17 @@ std::vector<Columns> columnParts(const Table& table) {
   std::size_t key_width = 0;
   for (std::size_t i = 0; i < keys; ++i) {
     first.push_back(i);
-    key_width += widthOf(table, i);
+    key_width += roomOf(table, i);
   }
   std::vector<Columns> parts{first};
   std::size_t width = key_width;
   for (std::size_t i = keys; i < table.columns.size(); ++i) {
-    if (width + widthOf(table, i) > kLettersPerLine && parts.back().size() > keys) {
+    if (width + roomOf(table, i) > kLettersPerLine && parts.back().size() > keys) {
       parts.push_back(first);
       width = key_width;
     }
     parts.back().push_back(i);
-    width += widthOf(table, i);
+    width += roomOf(table, i);
   }
   return parts;
 }
@@ -145,19 +170,16 @@ std::string toLatex(const Table& table, const std::string& kind) {
   std::string text;
   std::size_t part = 0;
   for (const Columns& columns : columnParts(table)) {
-    std::string alignment;
-    for (const std::size_t i : columns) {
-      alignment += table.columns[i].format == Format::kText ? 'l' : 'r';
-    }
     for (std::size_t begin = 0; begin < table.rows.size(); begin += kRowsPerPage) {
       ++part;
       const std::string number = part > 1 ? "-" + std::to_string(part) : "";
       const std::string note = part > 1 ? "continued." : latexEscaped(table.note);
       const std::size_t end = std::min(begin + kRowsPerPage, table.rows.size());
       text += latexTable(latexEscaped(table.title) + ", " + kind + " problems. " + note,
-                         "tab:pcrb-" + kind + "-" + table.id + number, alignment,
+                         "tab:pcrb-" + kind + "-" + table.id + number, alignmentOf(table, columns),
                          bodyOf(table, columns, begin, end));
     }
+    text += "\\clearpage\n\n";  // LaTeX keeps only so many floats at once
   }
   return text;
 }
