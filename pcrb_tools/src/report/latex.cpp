@@ -9,8 +9,6 @@
 namespace pcrb_tools {
 namespace {
 
-constexpr std::size_t kLettersPerLine = 78;  // of \footnotesize in a page's width, with gaps
-constexpr std::size_t kGap = 3;              // letters between two columns
 constexpr std::size_t kWidestText = 28;  // letters; longer ones are broken, in a third of a line
 constexpr std::size_t kRowsPerPage = 42;
 
@@ -75,7 +73,7 @@ bool isBroken(const Table& table, std::size_t column) {
 
 /// Letters that a column takes beside others.
 std::size_t roomOf(const Table& table, std::size_t column) {
-  return kGap + (isBroken(table, column) ? kWidestText : widthOf(table, column));
+  return kLatexGap + (isBroken(table, column) ? kWidestText : widthOf(table, column));
 }
 
 std::string alignmentOf(const Table& table, const Columns& columns) {
@@ -93,7 +91,7 @@ std::size_t countKeys(const Table& table) {
   std::size_t room = roomOf(table, 0);
   while (count + 1 < table.columns.size() && table.columns[count].format == Format::kText) {
     room += roomOf(table, count);
-    if (2 * room > kLettersPerLine) break;
+    if (2 * room > kLatexLetters) break;
     ++count;
   }
   return count;
@@ -111,7 +109,7 @@ std::vector<Columns> columnParts(const Table& table) {
   std::vector<Columns> parts{first};
   std::size_t width = key_width;
   for (std::size_t i = keys; i < table.columns.size(); ++i) {
-    if (width + roomOf(table, i) > kLettersPerLine && parts.back().size() > keys) {
+    if (width + roomOf(table, i) > kLatexLetters && parts.back().size() > keys) {
       parts.push_back(first);
       width = key_width;
     }
@@ -125,7 +123,7 @@ template <typename Cell>
 std::string latexLine(const Columns& columns, const Cell& cell) {
   std::string text;
   for (const std::size_t column : columns) {
-    text += (text.empty() ? "" : " & ") + latexEscaped(cell(column));
+    text += (column == columns.front() ? "" : " & ") + latexEscaped(cell(column));
   }
   return text + " \\\\\n";
 }

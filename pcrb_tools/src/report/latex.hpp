@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "report/table.hpp"
 
 namespace pcrb_tools {
+
+constexpr std::size_t kLatexLetters = 78;  ///< of \footnotesize in a page's width, with gaps
+constexpr std::size_t kLatexGap = 3;       ///< letters between two columns
 
 std::string latexEscaped(const std::string& text);
 

@@ -13,7 +13,6 @@ namespace {
 using Mark = Pivot::Mark;
 
 constexpr const char* kTooFew = "too few pairs to tell";
-constexpr std::size_t kMethodsPerTable = 7;
 
 /// What the tests say of a selection: who is worse than whom, and whom they cannot tell apart.
 struct Tests {
@@ -86,6 +85,22 @@ std::string joinedCells(const std::vector<std::string>& cells, const std::string
   std::string line;
   for (const std::string& cell : cells) line += separator + cell;
   return line;
+}
+
+/// The first method that does not fit beside those from `begin` on; one fits at least.
+std::size_t endOfPart(const Pivot& pivot, std::size_t begin) {
+  constexpr std::size_t kNumber = 8;  // letters, as 1.23e-05
+  const auto room = [](const std::string& name) {
+    return std::max(name.size(), kNumber) + kLatexGap;
+  };
+  std::size_t width = pivot.has_baseline ? room(kBaseline) : 0, widest = 0;
+  for (const Pivot::Row& row : pivot.rows) widest = std::max(widest, row.name.size());
+  width += widest + kLatexGap + room(pivot.methods[begin]);
+  std::size_t end = begin + 1;
+  while (end < pivot.methods.size() && width + room(pivot.methods[end]) <= kLatexLetters) {
+    width += room(pivot.methods[end++]);
+  }
+  return end;
 }
 
 /// The table of the methods from `begin` to `end`.
@@ -185,7 +200,8 @@ std::string toMarkdown(const Pivot& pivot) {
 std::string toLatex(const Pivot& pivot, const std::string& kind) {
   std::string text;
   const std::size_t count = pivot.methods.size();
-  for (std::size_t begin = 0, part = 1; begin < count; begin += kMethodsPerTable, ++part) {
+  for (std::size_t begin = 0, end = 0, part = 1; begin < count; begin = end, ++part) {
+    end = endOfPart(pivot, begin);
     const std::string caption =
         "Median error of the " + kind +
         " problems, dimensionless (the mean distance of a source's points from where they belong, "
@@ -195,7 +211,7 @@ std::string toLatex(const Pivot& pivot, const std::string& kind) {
         std::string(part > 1 ? "; continued." : ".");
     const std::string label =
         "tab:pcrb-" + kind + "-medians" + (part > 1 ? "-" + std::to_string(part) : "");
-    text += latexPart(pivot, caption, label, begin, std::min(begin + kMethodsPerTable, count));
+    text += latexPart(pivot, caption, label, begin, end);
   }
   return text;
 }
