@@ -52,9 +52,8 @@ TransformTree::TransformTree(const BagMessages& bags) {
   std::map<std::string, Gathered> frames;
   bags.forEach({kTfTopic, kTfStaticTopic}, [&](const rosbag::MessageInstance& instance) {
     const bool is_static = instance.getTopic() == kTfStaticTopic;
-    for (const auto& stamped : messageAs<tf2_msgs::TFMessage>(instance)->transforms) {
-      gather(stamped, is_static, frames);
-    }
+    const auto message = messageAs<tf2_msgs::TFMessage>(instance);
+    for (const auto& stamped : message->transforms) gather(stamped, is_static, frames);
   });
   for (auto& [child, gathered] : frames) {
     Link& link = links_[child];
