@@ -1,3 +1,4 @@
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 
 #include "conversion/own_request.hpp"
