@@ -121,7 +121,9 @@ class PlainPcl : public ::testing::TestWithParam<std::string> {
     const Transform expected = expectedOf(GetParam(), pair);
     const RegistrationResult result = answerOf(GetParam(), pair);
     EXPECT_LT((result.T_target_source.matrix() - expected.matrix()).norm(), 2e-5);
-    if (GetParam() == "ndt_pcl") EXPECT_EQ(result.iterations, 1);
+    if (GetParam() == "ndt_pcl") {
+      EXPECT_EQ(result.iterations, 1);
+    }
   }
 };
 
