@@ -61,8 +61,8 @@ class BenchmarkTest(TestCase):
         launch = self.start(Launch('benchmark.launch', root=self.data.root, run=run, kind='local', method='gicp'))
         summary = self.finished_summary()
         launch.wait()
-        self.assertIn('process has finished cleanly', launch.output())  # server or client: exit status 0
-        self.assertNotIn('exit code', launch.output())
+        self.assertNotIn('exit code', launch.output())  # server and client: exit status 0
+        self.assertNotIn('has died', launch.output())
         self.assertTrue(summary.finished)
         self.assert_rows_of(run, self.data.of('local'))
         self.assert_scores_are_those_of_the_formula(run)
@@ -80,14 +80,14 @@ class BenchmarkTest(TestCase):
 
     def test_registration_node_lists_its_mistakes(self):
         node = self.registration_node(method='gucp', colour='red')
-        self.assert_fails(node, '2 mistakes', "method: found 'gucp', expected one of fgr, gicp, icp",
+        self.assert_fails(node, '2 mistakes', "method: found 'gucp', expected one of do_nothing, fgr, gicp, gicp_pcl, icp",
                           '~colour: no parameter of this node')
 
     def test_a_method_that_does_not_exist_ends_the_launch_at_once_and_locks_no_run(self):
         arguments = {'root': self.data.root, 'run': self.path('run'), 'sequences': 'kitchen'}
         launch = self.start(Launch('benchmark.launch', **arguments, method='gipc'))
         launch.wait(limit=40.0)  # the server would wait for a client for 60 s
-        self.assertRegex(launch.output(), r"found 'gipc', expected one of fgr, gicp, icp")
+        self.assertRegex(launch.output(), r"found 'gipc', expected one of do_nothing, fgr, gicp, gicp_pcl, icp")
         self.assertNotIn('no client called', launch.output())
         launch = self.start(Launch('benchmark.launch', **arguments, method='icp'))
         launch.wait()

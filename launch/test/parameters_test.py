@@ -103,7 +103,7 @@ class ParametersTest(TestCase):
         other = self.start(server.again(subset=3, time_limit=5.0, debug=True, sequences='kitchen', under_test='icp'))
         self.assert_fails(
             other, 'holds a run of another configuration', r'subset: the run has `2`, asked for `3`',
-            r'time_limit: the run has `10`, asked for `5`', r'debug: the run has `false`, asked for `true`',
+            r'time_limit: the run has `30`, asked for `5`', r'debug: the run has `false`, asked for `true`',
             r'sequences: the run has `all`, asked for `kitchen`', r'hall_local.txt: not selected',
             r'under_test: the run has ``, asked for `icp`')
         self.assert_ends_well(self.start(server.again()))
