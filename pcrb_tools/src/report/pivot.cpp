@@ -89,7 +89,7 @@ std::string joinedCells(const std::vector<std::string>& cells, const std::string
 
 /// The first method that does not fit beside those from `begin` on; one fits at least.
 std::size_t endOfPart(const Pivot& pivot, std::size_t begin) {
-  constexpr std::size_t kNumber = 8;  // letters, as 1.23e-05
+  static constexpr std::size_t kNumber = 8;  // letters, as 1.23e-05
   const auto room = [](const std::string& name) {
     return std::max(name.size(), kNumber) + kLatexGap;
   };
