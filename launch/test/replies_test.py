@@ -78,7 +78,7 @@ class RepliesTest(TestCase):
         client.take_source(first)
         self.assertFalse(client.ready(first).accepted)
         unknown = Request(problem_id='123', pose=stamped('map'))
-        self.assert_code(client._submit(unknown), Code.UNKNOWN_PROBLEM, '`123`')
+        self.assert_code(client._submit(unknown), Code.UNKNOWN_PROBLEM, "'123'")
         wrong = [
             ({'pose': pose(x=math.nan)}, Code.NOT_FINITE, 'NaN'),
             ({'pose': pose(x=math.inf)}, Code.NOT_FINITE, 'infinite'),
@@ -110,7 +110,7 @@ class RepliesTest(TestCase):
         def answer(client, problem):
             """Once `near` is known to the server, so is `far`."""
             if problem.index > 0:
-                self.assert_code(client.submit(problem, stamped('far')), Code.NO_TRANSFORM, '`far`')
+                self.assert_code(client.submit(problem, stamped('far')), Code.NO_TRANSFORM, "'far'")
             wait_until(lambda: client.submit(problem, stamped('near')).accepted, 'the server knows the frame')
 
         client.serve(server, answer)
