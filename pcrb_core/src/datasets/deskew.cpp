@@ -1,13 +1,19 @@
 #include "pcrb_core/datasets/deskew.hpp"
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace pcrb {
 
 Stamp pointStamp(Stamp scan, double time) {
-  constexpr double kSince1970 = 1e8;  // s: no turn of a sensor takes three years
-  const Stamp ns = std::llround(time * static_cast<double>(kSecond));
+  constexpr double kSince1970 = 1e8;   // s: no turn of a sensor takes three years
+  constexpr double kYear2200 = 7.3e9;  // s
+  if (!(std::abs(time) < kYear2200)) return std::numeric_limits<Stamp>::max();
+  // In two parts: a double of 1.5e18 ns has steps of 256.
+  const double seconds = std::floor(time);
+  const Stamp ns = static_cast<Stamp>(seconds) * kSecond +
+                   std::llround((time - seconds) * static_cast<double>(kSecond));
   return std::abs(time) > kSince1970 ? ns : scan + ns;
 }
 

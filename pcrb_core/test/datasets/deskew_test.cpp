@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "pcrb_core/datasets/stamp_mismatch.hpp"
 
 namespace pcrb {
@@ -41,6 +44,9 @@ TEST(Deskew, TimesSince1970AreTakenAsSuch) {
   EXPECT_EQ(pointStamp(kStart, 0.25), kStart + kSecond / 4);
   EXPECT_EQ(pointStamp(kStart, -0.1), kStart - kSecond / 10);
   EXPECT_EQ(pointStamp(kStart, 1.5e9 + 0.25), kStart + kSecond / 4);
+  for (const double no_time : {std::nan(""), 1e300, -1e300}) {
+    EXPECT_EQ(pointStamp(kStart, no_time), std::numeric_limits<Stamp>::max());
+  }
 }
 
 TEST(Deskew, AScanThatThePosesDoNotCoverIsNone) {
