@@ -9,7 +9,7 @@ namespace pcrb {
 Stamp pointStamp(Stamp scan, double time) {
   constexpr double kSince1970 = 1e8;   // s: no turn of a sensor takes three years
   constexpr double kYear2200 = 7.3e9;  // s
-  if (!(std::abs(time) < kYear2200)) return std::numeric_limits<Stamp>::max();
+  if (!(std::abs(time) < kYear2200)) return std::numeric_limits<Stamp>::max() / 2;
   // In two parts: a double of 1.5e18 ns has steps of 256.
   const double seconds = std::floor(time);
   const Stamp ns = static_cast<Stamp>(seconds) * kSecond +

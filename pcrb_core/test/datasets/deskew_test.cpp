@@ -45,7 +45,7 @@ TEST(Deskew, TimesSince1970AreTakenAsSuch) {
   EXPECT_EQ(pointStamp(kStart, -0.1), kStart - kSecond / 10);
   EXPECT_EQ(pointStamp(kStart, 1.5e9 + 0.25), kStart + kSecond / 4);
   for (const double no_time : {std::nan(""), 1e300, -1e300}) {
-    EXPECT_EQ(pointStamp(kStart, no_time), std::numeric_limits<Stamp>::max());
+    EXPECT_EQ(pointStamp(kStart, no_time), std::numeric_limits<Stamp>::max() / 2);
   }
 }
 

@@ -14,7 +14,7 @@ using PoseAt = std::function<PoseLookup(Stamp)>;
 ///
 /// @param time  s: after the scan's stamp (before it where negative), or since 1970 where that is
 ///              what its size says.
-/// @return      the last stamp there is for what is no time, e.g. NaN.
+/// @return      a stamp beyond all logs for what is no time, e.g. NaN.
 Stamp pointStamp(Stamp scan, double time);
 
 /// The scan in the data set's frame, each point moved by the sensor's pose at its own time: a
