@@ -71,7 +71,9 @@ def known_methods():
 
 
 def problem_files(root, kind='both'):
-    """(data set, sequence, kind, path) of each problem file below a root."""
+    """(data set, sequence, kind, path) of each problem file below a root; none where there is no such folder."""
+    if not os.path.isdir(root):
+        return []
     return [found for found in core().find_sequences(root) if kind in ('both', None, found[2])]
 
 
