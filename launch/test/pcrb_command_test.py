@@ -58,8 +58,8 @@ class PcrbCommandTest(TestCase):
         self.assertEqual(errors[0], errors[1])  # icp is deterministic
         self.assertNotEqual(errors[0], errors[2])
         self.assertNotIn('pcrb replay', output)
-        again = self.run_of('series', *words, '--json')[1]
-        self.assertEqual([one['folder'] for one in json.loads(again)['runs']], folders)
+        again = pcrb('run', '--root', self.data.root, '--run', run, *words, '--json')
+        self.assertEqual([one['folder'] for one in json.loads(again.stdout)['runs']], folders, again.stderr)
         self.assert_ends_well(self.start(Child([front_door(), 'report', run, '--output', self.path('report'), '--no-figures'])))
         with open(self.path('report', 'tables', 'local_trials.csv'), encoding='utf-8') as file:
             self.assertIn('voxel_leaf=0.3,total,2', file.read())

@@ -27,6 +27,11 @@ def main(words):
     except NotBuilt as error:
         complain(str(error))
         return 1
+    except Exception as error:
+        if not type(error).__module__.startswith('pcrb.'):
+            raise
+        complain(str(error))  # of the core: a file and what is wrong with it
+        return 1
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
