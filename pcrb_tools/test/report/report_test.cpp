@@ -226,7 +226,7 @@ TEST_F(ReportTest, ImportsTheResultFilesOfThePapersAuthors) {
   for (const std::string kind : {"local", "global"}) {
     for (auto& row : readCsv(options_.output + "/tables/" + kind + "_problems.csv")) {
       read.insert(row["method"] + " " + row["sequence"] + " " + row["problem"] + " " +
-                  row["error"] + " " + row["initial_misalignment"]);
+                  row["error"] + " " + row["misalignment"]);
     }
   }
   EXPECT_EQ(read, (std::set<std::string>{"ppcr plain 12 0.25 0.5", "ppcr plain 13 0.75 0.5",
