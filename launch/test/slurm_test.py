@@ -46,7 +46,7 @@ class SlurmTest(TestCase):
             self.cluster.skip_requeue_delay()
             return not self.cluster.queue()
         try:
-            wait_until(all_done, 'all jobs are done', LIMIT, period=0.3)
+            wait_until(all_done, 'all jobs are done', 2 * LIMIT, period=0.3)  # three shards, a merge, a report
         except AssertionError as error:
             logs = [f'{name}:\n{self.log(name)}' for name in os.listdir(os.path.join(self.run, 'slurm'))]
             raise AssertionError('\n'.join([str(error), str(self.cluster.queue()), *logs])) from None
