@@ -71,11 +71,7 @@ def known_methods():
 
 
 def problem_files(root, kind='both'):
-<<<<<<< HEAD
     """(data set, sequence, kind, path) of each problem file below a root; none where there is no such folder."""
-=======
-    """(data set, sequence, kind, path) of each problem file below a root."""
->>>>>>> 3ead00c (Say in a line what the core finds wrong, and let the doctor name a root that is not there)
     if not os.path.isdir(root):
         return []
     return [found for found in core().find_sequences(root) if kind in ('both', None, found[2])]
