@@ -70,7 +70,7 @@ TEST(ParameterReader, ListsAllMistakesAtOnce) {
 TEST(MakeRegistration, NamesTheKnownMethodsWhereOneIsUnknown) {
   const std::string message = messageOf([] { makeRegistration("icpp", {}); });
   expectIn(message, "'icpp'");
-  expectIn(message, "gicp, icp");
+  expectIn(message, "gicp, gicp_pcl, icp");
   EXPECT_THROW(makeRegistration("icpp", {}), InvalidParameter);
   EXPECT_THROW(registrationDefaults("icpp"), InvalidParameter);
 }
