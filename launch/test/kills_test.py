@@ -43,7 +43,7 @@ def files_below(folder):
     for base, _, names in os.walk(folder):
         for name in names:
             path = os.path.join(base, name)
-            if not TEMPORARY.search(os.path.relpath(path, folder)) and not name.endswith(('.yaml', '.sqlite')):
+            if not TEMPORARY.search(os.path.relpath(path, folder)) and not name.endswith(('.yaml', '.sqlite', '.unpacked')):
                 with open(path, 'rb') as file:
                     found[os.path.relpath(path, folder)] = file.read()
     return found
@@ -103,7 +103,7 @@ class KillsTest(BridgeTestCase):
         self.count(program, done)
 
     def test_tools(self):
-        kills = 60 if LONG else 3
+        kills = 100 if LONG else 3
         data = maths.make_data_set(self.path('rooms'), points=1500)
         tool = functools.partial(executable, 'pcrb_tools')
         scans = data.folder('kitchen')
@@ -142,7 +142,7 @@ class KillsTest(BridgeTestCase):
                        f' url: "{url}/kitchen_local.txt"}}\n')
         self.check_kills('fetch_datasets', lambda folder: [
             executable('pcrb_tools', 'fetch_datasets'), 'kitchen', '--logs', f'{folder}/logs', '--root', f'{folder}/root',
-            '--sources', sources, '--fetch-only'], 60 if LONG else 3)
+            '--sources', sources, '--fetch-only'], 100 if LONG else 3)
 
     def finished_run(self):
         """A run with results, made by a client that says the guess."""
@@ -154,7 +154,7 @@ class KillsTest(BridgeTestCase):
     def test_report(self):
         run = self.finished_run().run
         self.check_kills('report', lambda folder: [executable('pcrb_tools', 'report'), f'mine={run}', '--output', folder,
-                                                   '--no-figures', '--resamples', '50'], 60 if LONG else 3)
+                                                   '--no-figures', '--resamples', '50'], 100 if LONG else 3)
 
     def test_run_paper(self):
         """The processes that it started end with it, and a rerun goes on."""
