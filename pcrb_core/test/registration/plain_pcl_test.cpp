@@ -135,7 +135,9 @@ TEST_P(PlainPcl, IsPclWithThePapersNumbersOnGeneratedPairs) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Random random(seed);
     const Transform P = pcrb_test::randomMotion(random, 0.2, 0.5);
-    expectPclsAnswer({hall(seed), transformed(hall(seed + 10), P), 0.2});
+    // The hall is too thin for NDT's cells to be as small as a leaf.
+    const double leaf = GetParam() == "ndt_pcl" ? 1.0 : 0.2;
+    expectPclsAnswer({hall(seed), transformed(hall(seed + 10), P), leaf});
   }
 }
 
