@@ -70,6 +70,21 @@ def program_of(node):
     return found[0]
 
 
+def programs_of(nodes):
+    """Hashes of the programs and nodelets; roslaunch goes on without those that are not there, unless none is."""
+    hashes, missing = {}, []
+    for node in nodes:
+        try:
+            hashes[f'{node.package}/{node.type}'] = hash_of_file(program_of(node))
+            hashes.update({os.path.basename(path): hash_of_file(path) for path in libraries_of(node)})
+        except NotFound as error:
+            missing.append(error)
+            hashes[f'{node.package}/{node.type}'] = 'not found'
+    if missing and len(missing) == len(nodes):
+        raise missing[0]
+    return hashes
+
+
 def libraries_of(node):
     """Paths of the libraries that the nodelet of a node may be in."""
     nodelet = re.match(r'(?:standalone|load) (\w+)/', node.args or '') if node.package == 'nodelet' else None
@@ -93,9 +108,7 @@ def shown(value):
 
 def description(config):
     lines = [f'file {os.path.basename(path)}: {hash_of_file(path)}' for path in sorted(set(config.roslaunch_files))]
-    programs = {f'{node.package}/{node.type}': program_of(node) for node in config.nodes}
-    programs.update({os.path.basename(path): path for node in config.nodes for path in libraries_of(node)})
-    lines += [f'program {name}: {hash_of_file(path)}' for name, path in sorted(programs.items())]
+    lines += [f'program {name}: {value}' for name, value in sorted(programs_of(config.nodes).items())]
     return lines + [f'{name}: {shown(parameter.value)}' for name, parameter in sorted(config.params.items())]
 
 
