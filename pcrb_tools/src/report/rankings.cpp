@@ -70,9 +70,10 @@ std::vector<Ranked> meanRanks(const Section& section,
   for (const auto& row : medians) {
     const std::vector<double> ranks = ranksOf(row);
     for (std::size_t i = 0; i < ranks.size(); ++i) {
-      ranked[i].rank += ranks[i] / static_cast<double>(medians.size());
+      ranked[i].rank += ranks[i];
     }
   }
+  for (Ranked& entry : ranked) entry.rank /= static_cast<double>(medians.size());
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.rank < b.rank; });
   return ranked;
