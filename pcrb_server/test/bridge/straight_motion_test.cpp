@@ -15,7 +15,7 @@ TEST(StraightMotion, SetsOffEvenlyAndBrakesAsItSetOff) {
   StraightMotion motion;
   motion.changeTo(0.5, 100.0);
   EXPECT_DOUBLE_EQ(motion.timeToSpeed(100.0), 0.25);
-  EXPECT_DOUBLE_EQ(motion.at(100.1).velocity, 0.2);
+  EXPECT_NEAR(motion.at(100.1).velocity, 0.2, 1e-12);  // 100.1 is rounded
   EXPECT_DOUBLE_EQ(motion.at(100.1).acceleration, StraightMotion::kAcceleration);
   EXPECT_NEAR(motion.at(100.25).position, 0.0625, 1e-12);
   EXPECT_NEAR(motion.at(101.25).position, 0.5625, 1e-12);
