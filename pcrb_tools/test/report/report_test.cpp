@@ -8,6 +8,7 @@
 
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/problem.hpp"
+#include "report/table.hpp"
 #include "support/report_fixture.hpp"
 #include "support/shared_data.hpp"
 
