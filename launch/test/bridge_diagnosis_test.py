@@ -29,9 +29,9 @@ class BridgeDiagnosisTest(AnsweringTestCase):
         return self.start(Child([executable('localization_standins', 'ill_mannered_localizer'), f'_manner:={manner}',
                                  *(f'{own}:={robot}/{topic}' for own, topic in remaps.items())], robot))
 
-    def run_with(self, manner, subset=1, **parameters):
+    def run_with(self, manner, subset=1, time_limit=1.5, **parameters):
         """Rows of a run with the node, and what the bridge printed."""
-        server = self.localization(run=manner, sequences='kitchen', subset=subset, time_limit=1.5)
+        server = self.localization(run=manner, sequences='kitchen', subset=subset, time_limit=time_limit)
         node = self.ill_mannered(server, manner)
         bridge = self.bridge(server, answer_limit=0.2, **parameters)
         rows = list(self.rows_of_bridge(server, bridge).values())
@@ -48,7 +48,7 @@ class BridgeDiagnosisTest(AnsweringTestCase):
             self.assertRegex(output, rf'problems without an answer, by cause .*\n  1 × {code}: ')
 
     def test_a_wrong_topic_is_refused_before_a_problem_counts(self):
-        server = self.localization(run='elsewhere', sequences='kitchen', subset=2, time_limit=1.5)
+        server = self.localization(run='elsewhere', sequences='kitchen', subset=2, time_limit=6.0)
         self.ill_mannered(server, 'elsewhere')
         self.assert_fails(self.bridge(server, answer_limit=0.2), TOPIC)
         self.assertEqual(server.rows(), [])
@@ -69,7 +69,7 @@ class BridgeDiagnosisTest(AnsweringTestCase):
         self.assertIn('the node under test has left', output)
 
     def test_a_node_that_takes_the_correction_for_motion_shows_which_answer_was_good(self):
-        rows, output = self.run_with('velocity', subset=2, settle='nth', settle_count=8)
+        rows, output = self.run_with('velocity', subset=2, time_limit=30.0, settle='nth', settle_count=20)
         for row in rows:
             self.assertGreater(row['error'], row['initial_misalignment'])
             first = select(self.path('velocity'), 'scan', f"SELECT * FROM scan WHERE problem_id = '{row['problem_id']}' AND scan = 1")

@@ -125,7 +125,8 @@ void requireWholeBag(const std::string& path) {
   const std::int64_t index = indexPosition(file);
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
   if (index == 0) refuseOpenBag(path);
-  if (index < 0 || index >= size || !endsWithRecord(file, index, size)) {
+  const bool is_empty = index == size;  // a bag without a message has an index without a record
+  if (index < 0 || index > size || (!is_empty && !endsWithRecord(file, index, size))) {
     throw pcrb::InvalidFile(
         path, 0, std::to_string(size) + " bytes of a bag that is cut or damaged",
         "all of it" +

@@ -69,14 +69,14 @@ std::pair<Poses, std::string> findPoses(const LogFiles& files) {
 }
 
 ConvertedScan makeEthCloud(std::string_view bytes, const std::string& path, EthFrame frame,
-                           const pcrb::Transform& pose) {
+                           const std::optional<pcrb::Transform>& pose) {
   pcrb::SensorScan scan = pcrb::parseEthScan(bytes, path);
   const pcrb::PointCounts counts = scan.counts;
-  if (frame == EthFrame::kLocal) return {pcrb::placeScan(std::move(scan), pose), counts};
+  if (frame == EthFrame::kLocal) return {pcrb::placeScan(std::move(scan), pose.value()), counts};
   pcrb::DatasetCloud cloud;
   cloud.points = std::move(scan.points);
-  cloud.viewpoint = pcrb::asViewpoint(pose);
-  cloud.is_viewpoint_known = true;
+  if (pose) cloud.viewpoint = pcrb::asViewpoint(*pose);
+  cloud.is_viewpoint_known = pose.has_value();
   return {std::move(cloud), counts};
 }
 
@@ -110,8 +110,9 @@ std::pair<std::map<std::uint64_t, std::size_t>, EthFrame> chooseScans(const LogF
 }
 
 FileScan planEthScan(std::uint64_t number, std::size_t file, EthFrame frame,
-                     const pcrb::Transform& T_world_scanner) {
-  return {file, pcrb::ethCloudName(number), poseText(T_world_scanner),
+                     const std::optional<pcrb::Transform>& T_world_scanner) {
+  return {file, pcrb::ethCloudName(number),
+          T_world_scanner ? poseText(*T_world_scanner) : "no pose",
           [frame, T_world_scanner](std::string_view bytes, const std::string& path) {
             return makeEthCloud(bytes, path, frame, T_world_scanner);
           }};
@@ -134,8 +135,9 @@ ConversionReport convertEth(const EthRequest& request) {
                               "no pose of scan " + std::to_string(number),
                               std::string("one in ") + kLeicaFile);
     }
-    work.push_back(planEthScan(number, file, frame,
-                               pose == poses.end() ? pcrb::Transform::Identity() : pose->second));
+    work.push_back(
+        planEthScan(number, file, frame,
+                    pose == poses.end() ? std::optional<pcrb::Transform>() : pose->second));
   }
   Conversion conversion(request, sequence, work.size());
   noteMissingNumbers(scans, sequence, conversion);

@@ -1,9 +1,7 @@
 #include "fetch/dspace.hpp"
 
-#include <array>
 #include <boost/uuid/detail/md5.hpp>
 #include <cctype>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -101,12 +99,14 @@ void requireMd5(const std::string& path, const std::string& expected) {
   }
   boost::uuids::detail::md5::digest_type digest;
   hash.get_digest(digest);
-  std::array<unsigned char, 16> bytes{};
-  static_assert(sizeof(digest) == sizeof(bytes));
-  std::memcpy(bytes.data(), &digest, sizeof(digest));
   constexpr const char* kHex = "0123456789abcdef";
   std::string found;
-  for (const unsigned char byte : bytes) found += {kHex[byte >> 4U], kHex[byte & 0xfU]};
+  for (const auto part : digest) {  // words, or bytes since Boost 1.86
+    for (unsigned shift = 8 * sizeof(part); shift > 0;) {
+      shift -= 4;
+      found += kHex[(static_cast<unsigned>(part) >> shift) & 0xfU];
+    }
+  }
   if (found != expected) throw pcrb::InvalidFile(path, 0, "MD5 " + found, expected);
 }
 
