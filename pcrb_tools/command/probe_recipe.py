@@ -157,14 +157,15 @@ def judge_settling(answers, verdict):
     verdict.notes.append(f'errors over the scans, m: {shown} (the initial pose was off by 0.364)')
     best, first, last = min(errors), errors[0], errors[-1]
     spread = max(errors[-3:]) - min(errors[-3:])
-    if first <= max(1.5 * best, best + AGREE):
+    grows = last > 2 * first + AGREE
+    if grows or first <= max(1.5 * best, best + AGREE):
         rule = 'first'
     elif spread < AGREE and len(errors) > 3:
         rule = 'stable'
     else:
         rule = 'deadline'
     verdict.set('settle', rule)
-    if last > 2 * first + AGREE:
+    if grows:
         verdict.notes.append('the error grows with further scans: a motion model takes the correction for motion')
     if best > 0.3:
         verdict.doubts.append('no answer is much better than the initial pose: are its parameters right for a room of 12 x 8 m?')
