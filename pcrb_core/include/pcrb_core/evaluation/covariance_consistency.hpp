@@ -24,13 +24,18 @@ using PoseErrorVector = Eigen::Matrix<double, 6, 1>;
 /// axes of the frame that the poses are in.
 PoseErrorVector poseErrorVector(const Transform& estimate, const Transform& truth);
 
-/// Distribution function and quantile of χ² with k degrees of freedom.
+/// Distribution function of χ² with k degrees of freedom.
 ///
 /// @param x  >= 0; infinite gives 1.
 /// @param k  >= 1.
-/// @param q  in (0, 1).
 /// @throws InvalidParameter  if one is out of range.
 double chiSquareCdf(double x, int k);
+
+/// Its inverse.
+///
+/// @param q  in (0, 1).
+/// @param k  >= 1.
+/// @throws InvalidParameter  if one is out of range.
 double chiSquareQuantile(double q, int k);
 
 /// One error against its covariance.
