@@ -54,7 +54,9 @@ class BridgeDiagnosisTest(AnsweringTestCase):
         self.assertEqual(server.rows(), [])
         somewhere = f'{server.namespace}/robot/somewhere'
         rows = self.rows_of_bridge(server, self.bridge(server, settle='first', pose_topic=somewhere))
-        self.assertEqual({row['outcome'] for row in rows.values()}, {'replied'})
+        # A server that goes on alone, as here and in no launch file, waits for the first problem in vain.
+        outcomes = [row['outcome'] for row in rows.values()]
+        self.assertEqual((len(outcomes), set(outcomes) - {'timed_out'}), (2, {'replied'}))
 
     def test_a_node_that_brings_a_map_and_tf_of_its_own_is_refused_before_a_problem_counts(self):
         server = self.localization(run='owner', sequences='kitchen', subset=1)
