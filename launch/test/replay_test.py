@@ -202,7 +202,7 @@ class ReplayTest(TestCase):
 
     def assert_run_is_shown(self, presentation, **parameters):
         results = self.run_of_guesses(presentation, **parameters)
-        self.replay(run=self.path('run'), order='worst')
+        self.replay(run=self.path('run'), order='worst', keep_alive=True)
         errors = []
         for _ in results:
             source, aligned, markers = self.step('source', 'source_aligned', 'markers')
@@ -260,7 +260,7 @@ class ReplayTest(TestCase):
     def test_one_problem_of_a_run_is_shown_with_the_truth(self):
         row = max(self.run_of_guesses('registration').values(), key=lambda row: row['error'])
         self.replay(run=self.path('run'), problems=row['kind'], sequences=f"{row['data_set']}/{row['sequence']}",
-                    problem=row['problem_id'])
+                    problem=row['problem_id'], loop=True)  # it would end behind the only one
         truth, markers = self.step('source_true', 'markers')
         self.assert_points(truth, self.data.source_points(self.data.by_id(row['problem_id'])))
         self.assertEqual(float(markers.markers[0].text.split()[1]), float(f"{row['error']:.3g}"))

@@ -14,6 +14,9 @@ namespace pcrb {
 namespace {
 
 constexpr std::uint32_t kSceneQueue = 10;
+
+/// s: a node that ends drops what it has not sent yet, and who has just subscribed gets nothing.
+constexpr double kLastSceneHold = 1.0;
 constexpr const char* kBack = "back";        // service, beside kStep
 constexpr const char* kCaption = "caption";  // topic: std_msgs/String, rows `name: value`
 
@@ -116,7 +119,10 @@ void Replay::run() {
   while (waitForTurn()) {
     show();
     if (next_ > 0 || parameters_.loop) continue;
-    if (!parameters_.keep_alive) break;
+    if (!parameters_.keep_alive) {
+      waitFor(kLastSceneHold);
+      break;
+    }
     pauseAtEnd();
   }
   if (!parameters_.stamps_file.empty()) writeStamps();
