@@ -1,6 +1,21 @@
 #include "bags/bag_tools.hpp"
 #include "common/tool_main.hpp"
 
+namespace {
+
+void addFrames(CLI::App& app, pcrb_tools::SequenceBagOptions& options) {
+  app.add_option("--scan-frame", options.sequence.scan_frame,
+                 "tf frame of the scans, without truth")
+      ->capture_default_str();
+  options.sequence.base_frame = "base_link";
+  app.add_option("--base-frame", options.sequence.base_frame, "tf frame of the robot's body")
+      ->capture_default_str();
+  app.add_option("--map-frame", options.sequence.map_frame, "tf frame of the map")
+      ->capture_default_str();
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   CLI::App app(
       "Writes a sequence as a bag that `rosbag play --clock` replays for rviz: scans where they "
@@ -30,14 +45,7 @@ int main(int argc, char** argv) {
   app.add_flag("--no-truth", no_truth,
                "only what a node under test may see: the map, the initial pose with the first "
                "scan, scans in their sensor's frame");
-  app.add_option("--scan-frame", options.sequence.scan_frame,
-                 "tf frame of the scans, without truth")
-      ->capture_default_str();
-  options.sequence.base_frame = "base_link";
-  app.add_option("--base-frame", options.sequence.base_frame, "tf frame of the robot's body")
-      ->capture_default_str();
-  app.add_option("--map-frame", options.sequence.map_frame, "tf frame of the map")
-      ->capture_default_str();
+  addFrames(app, options);
   app.add_option("--scans", options.scans,
                  "list to write of which scan has which timestamp, for score_poses");
   app.add_flag("--compress", options.bag.compress, "compress the bag by LZ4");
