@@ -15,6 +15,18 @@ struct Options {
   std::vector<double> sensor_in_body;
 };
 
+void addOffsets(CLI::App& app, CLI::Option* sequence, pcrb_tools::TrackingOptions& tracking) {
+  app.add_option("--time-offset", tracking.time_offset,
+                 "seconds that are added to the timestamps of the poses")
+      ->needs(sequence)
+      ->capture_default_str();
+  app.add_option("--estimate-offset", tracking.largest_offset,
+                 "estimate a time offset, at most so many seconds; 0 = do not")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(sequence)
+      ->capture_default_str();
+}
+
 void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) {
   auto& tracking = options.tracking;
   app.add_option("--output", tracking.output, "folder of the results of a sequence")
@@ -51,15 +63,7 @@ void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) 
   app.add_option("--tf", tracking.tf, "WORLD BODY: take the poses from tf between these frames")
       ->expected(2)
       ->needs(sequence);
-  app.add_option("--time-offset", tracking.time_offset,
-                 "seconds that are added to the timestamps of the poses")
-      ->needs(sequence)
-      ->capture_default_str();
-  app.add_option("--estimate-offset", tracking.largest_offset,
-                 "estimate a time offset, at most so many seconds; 0 = do not")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(sequence)
-      ->capture_default_str();
+  addOffsets(app, sequence, tracking);
 }
 
 void addOptions(CLI::App& app, Options& options) {

@@ -112,6 +112,15 @@ std::vector<std::string> filesOf(const Json& report) {
   return files;
 }
 
+/// Sequences whose problems are not the published ones.
+Json ownProblemsOf(const Section& section) {
+  Json names = Json::array();
+  for (const auto& [data_set, sequence] : section.own_problems) {
+    names.push_back(data_set + "/" + sequence);
+  }
+  return names;
+}
+
 }  // namespace
 
 ReportWriter::ReportWriter(const ReportOptions& options) : options_(options) {
@@ -164,10 +173,7 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   add(publishedTable(section));
   add(sequenceTable(section, root));
   addProblems(problemTable(section));
-  json["own_problems"] = Json::array();
-  for (const auto& [data_set, sequence] : section.own_problems) {
-    json["own_problems"].push_back(data_set + "/" + sequence);
-  }
+  json["own_problems"] = ownProblemsOf(section);
   json["published_correlations"] = publishedCorrelationsOf(section);
   json["charts"] = chartsOf(section);
   json["charts"]["ranking"] = rankingOf(section, comparisons);
