@@ -36,15 +36,16 @@ class Command:
 
 LOG_FRAME = {'frame': {'name': 'log-frame'}}  # score has the other frame
 ROOTED = {'root': {'required': True}}
+NEW_ROOT = {'root': {'kind': 'path', 'metavar': 'DIR'}}  # is made where it is not there
 
 COMMANDS = [
-    Command('prepare', 'data', 'from original logs to problem files, in stages', Tool('prepare_dataset'),
+    Command('prepare', 'data', 'from original logs to problem files, in stages', Tool('prepare_dataset', changes=NEW_ROOT),
             'pcrb prepare --logs ~/logs --root ~/pcrb --sequences eth/apartment'),
     Command('fetch', 'data', 'download the published data sets, and verify them', Tool('fetch_datasets', changes={
-        'from': {'kind': 'folder'}}), 'pcrb fetch --logs ~/logs --root ~/pcrb --sequences eth/plain'),
-    Command('convert', 'data', 'a log of your own (bags, or clouds and poses) to a data set with problems', Tool('convert_log'),
+        **NEW_ROOT, 'from': {'kind': 'folder'}}), 'pcrb fetch --logs ~/logs --root ~/pcrb --sequences eth/plain'),
+    Command('convert', 'data', 'a log of your own (bags, or clouds and poses) to a data set with problems', Tool('convert_log', changes=NEW_ROOT),
             'pcrb convert drive.bag --root ~/pcrb --data-set mine'),
-    *(Command(f'convert {data_set}', 'data', f'a log in the original format of {name} to clouds', Tool(f'{data_set}_to_pcd', changes=LOG_FRAME),
+    *(Command(f'convert {data_set}', 'data', f'a log in the original format of {name} to clouds', Tool(f'{data_set}_to_pcd', changes={**NEW_ROOT, **LOG_FRAME}),
               f'pcrb convert {data_set} ~/logs/{data_set}/{log} --root ~/pcrb')
       for data_set, name, log in (('eth', 'ETH', 'apartment'), ('planetary', 'the planetary data set', 'p2at_met'),
                                   ('tum', 'TUM RGB-D', 'pioneer_slam.bag'), ('kaist', 'KAIST Urban', 'urban05'))),
