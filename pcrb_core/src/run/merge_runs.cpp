@@ -106,11 +106,22 @@ void requireEveryShard(const std::vector<ShardRun>& parts) {
   if (!missing.empty()) throw StoreError("expected every shard, missing are" + missing);
 }
 
-RunInfo asMerged(RunInfo info, std::size_t shards) {
+/// The shards' secret; none if they have several: with another one, clouds would not be found where
+/// they were shown.
+std::optional<Secret> secretOf(const std::vector<ShardRun>& parts) {
+  const std::optional<Secret>& first = parts.front().info.secret;
+  for (const ShardRun& part : parts) {
+    const std::optional<Secret>& other = part.info.secret;
+    if (!first || !other || first->toHex() != other->toHex()) return std::nullopt;
+  }
+  return first;
+}
+
+RunInfo asMerged(RunInfo info, const std::vector<ShardRun>& parts) {
   info.configuration.selection.shard = ShardNumber{};
-  info.secret = Secret::draw();
+  info.secret = secretOf(parts);
   info.created = secondsSinceEpoch();
-  info.merged_from = std::to_string(shards) + " shards";
+  info.merged_from = std::to_string(parts.size()) + " shards";
   return info;
 }
 
@@ -130,7 +141,7 @@ std::string writeRun(const std::string& folder, const std::vector<ShardRun>& par
     results.insert(results.end(), part.results.begin(), part.results.end());
     sessions.insert(sessions.end(), part.sessions.begin(), part.sessions.end());
   }
-  store.setRunInfo(asMerged(info, parts.size()).write());
+  store.setRunInfo(asMerged(info, parts).write());
   store.addAll(results);
   std::stable_sort(sessions.begin(), sessions.end(),
                    [](const auto& a, const auto& b) { return a.started < b.started; });

@@ -70,9 +70,18 @@ TEST_F(MergeRunsTest, GivesTheRunThatWouldHaveBeenWithoutShards) {
   EXPECT_EQ(info["shard"], "0/1");
   EXPECT_EQ(info["problems"], "3");
   EXPECT_EQ(info["client"], "/pcrb/me");
-  EXPECT_EQ(info["secret"].size(), 32U);
+  EXPECT_EQ(info["secret"], kSomeSecret);
   EXPECT_TRUE(fs::exists(options_.output + "/summary.txt"));
   EXPECT_TRUE(fs::exists(options_.output + "/results.csv"));
+}
+
+TEST_F(MergeRunsTest, OfShardsWithASecretEachHasNone) {
+  Info second = infoOf("1/2", "1");
+  second["secret"] = "ffffffffffffffffffffffffffffffff";
+  options_.runs = {makeShard("a", infoOf("0/2", "1"), {"1"}), makeShard("b", second, {"2"})};
+  options_.output = folder_.file("merged");
+  mergeRuns(options_);
+  EXPECT_EQ(merged().runInfo().count("secret"), 0U);
 }
 
 TEST_F(MergeRunsTest, AddsUpWhatTheNodeUnderTestUsed) {

@@ -76,7 +76,9 @@ Secret secretOfRun(const RunInfo& info, const std::string& run) {
     return Secret::fromHex(std::string(32, '0'));  // nothing is derived from it
   }
   if (info.secret) return *info.secret;
-  throw StoreError(run + ": the run table has no `secret`: no run of benchmark_server");
+  throw StoreError(run +
+                   ": the run table has no `secret`: no run of benchmark_server, or one that was "
+                   "merged of shards with a secret each; show a shard in its place");
 }
 
 class RunPlayback : public Playback {

@@ -143,10 +143,13 @@ void ProblemDetails::addErrorPerMetre(ScoredProblem& problem) {
 
 void ProblemDetails::addComponents(const pcrb::RunInfo& info, ScoredProblem& problem) {
   if (!problem.reply) return;
+  const pcrb::PresentationOptions& options = info.configuration.presentation;
+  const bool is_moved = options.isLocalization() || options.audit;
+  if (is_moved && !info.secret) return;  // merged of shards with a secret each
   const pcrb::PlannedProblem planned = plan(problem.key);
   const pcrb::PosedProblem posed = poser_.pose(planned);
   const pcrb::Presentation presentation =
-      pcrb::present(posed, info.configuration.presentation, info.secret.value_or(pcrb::Secret()));
+      pcrb::present(posed, options, info.secret.value_or(pcrb::Secret()));
   const Transform residual = presentation.residual(*problem.reply);
   const pcrb::PoseComponents components =
       pcrb::poseComponents(residual, posed.source->metric->centroid());
