@@ -25,14 +25,8 @@ void addPlaces(CLI::App& app, Options& options) {
   app.add_option("--data-set", request.data_set, "folder of the data set")->capture_default_str();
   app.add_option("--sequence", request.sequence,
                  "folder of the sequence [from the names of the inputs]");
-  pcrb_tools::addChoice<pcrb_tools::PrepareStage>(
-      app, "--until", options.prepare.last,
-      {{"convert", pcrb_tools::PrepareStage::kConvert},
-       {"map", pcrb_tools::PrepareStage::kMap},
-       {"overlap", pcrb_tools::PrepareStage::kOverlap},
-       {"problems", pcrb_tools::PrepareStage::kProblems},
-       {"check", pcrb_tools::PrepareStage::kCheck}},
-      "last stage to run [check]");
+  pcrb_tools::addChoice(app, "--until", options.prepare.last, pcrb_tools::prepareStages(),
+                        "last stage to run [check]");
 }
 
 void addSources(CLI::App& app, Options& options) {

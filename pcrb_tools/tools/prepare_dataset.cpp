@@ -12,14 +12,8 @@ void addSelection(CLI::App& app, pcrb_tools::PrepareOptions& options) {
       "sequences to prepare: names of sequences, data sets, or <data set>/<sequence> [all]");
   app.add_option("--logs", options.logs, "folder of the original logs")->required();
   app.add_option("--root", options.root, "root of the common layout")->required();
-  pcrb_tools::addChoice<pcrb_tools::PrepareStage>(
-      app, "--until", options.last,
-      {{"convert", pcrb_tools::PrepareStage::kConvert},
-       {"map", pcrb_tools::PrepareStage::kMap},
-       {"overlap", pcrb_tools::PrepareStage::kOverlap},
-       {"problems", pcrb_tools::PrepareStage::kProblems},
-       {"check", pcrb_tools::PrepareStage::kCheck}},
-      "last stage to run [check]");
+  pcrb_tools::addChoice(app, "--until", options.last, pcrb_tools::prepareStages(),
+                        "last stage to run [check]");
 }
 
 void addParameters(CLI::App& app, pcrb_tools::PrepareOptions& options) {

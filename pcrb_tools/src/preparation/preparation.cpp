@@ -260,6 +260,15 @@ const char* toString(PrepareStage stage) {
   return kNames.at(static_cast<std::size_t>(stage));
 }
 
+std::map<std::string, PrepareStage> prepareStages() {
+  std::map<std::string, PrepareStage> stages;
+  for (int i = 0; i <= static_cast<int>(PrepareStage::kCheck); ++i) {
+    const auto stage = static_cast<PrepareStage>(i);
+    stages[toString(stage)] = stage;
+  }
+  return stages;
+}
+
 bool prepareDataset(const PrepareOptions& options, std::ostream& out) {
   const Interruption interruption;
   return Preparation(options, selectLogs(options), out).runAll();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -24,6 +25,9 @@ std::vector<SequenceLog> findLogs(const std::string& logs);
 enum class PrepareStage { kConvert, kMap, kOverlap, kProblems, kCheck };
 
 const char* toString(PrepareStage stage);
+
+/// All stages by their names.
+std::map<std::string, PrepareStage> prepareStages();
 
 /// What `prepare_dataset` is asked for.
 struct PrepareOptions {

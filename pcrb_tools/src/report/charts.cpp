@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
@@ -110,16 +109,7 @@ Json histograms(const Section& section) {
 std::vector<double> overlapsOf(const Section& section, const Selection& selection) {
   const auto known = section.overlaps.find(*selection.sequences.begin());
   if (known != section.overlaps.end()) return known->second;
-  std::set<std::string> seen;
-  std::vector<double> overlaps;
-  for (const Entry* entry : section.entries) {
-    for (const ScoredProblem* problem : select(*entry, selection)) {
-      if (problem->overlap && seen.insert(problem->pair).second) {
-        overlaps.push_back(*problem->overlap);
-      }
-    }
-  }
-  return overlaps;
+  return overlapsOfProblems(section, selection);
 }
 
 /// What the ten intervals cut: the range that pairs were drawn from, else that of the pairs.

@@ -168,6 +168,19 @@ std::vector<std::size_t> unitsOf(const Problems& problems) {
   return units;
 }
 
+std::vector<double> overlapsOfProblems(const Section& section, const Selection& selection) {
+  std::set<std::string> seen;
+  std::vector<double> overlaps;
+  for (const Entry* entry : section.entries) {
+    for (const ScoredProblem* problem : select(*entry, selection)) {
+      if (problem->overlap && seen.insert(problem->pair).second) {
+        overlaps.push_back(*problem->overlap);
+      }
+    }
+  }
+  return overlaps;
+}
+
 ProblemCounts countProblems(const Section& section, const Selection& selection) {
   std::map<pcrb::ProblemKey, std::size_t> holders;
   std::size_t methods = 0;

@@ -63,6 +63,9 @@ Problems select(const Entry& entry, const Selection& selection);
 std::vector<double> errorsOf(const Problems& problems);
 std::vector<std::size_t> unitsOf(const Problems& problems);
 
+/// Overlaps of the pairs of clouds of all methods' selected problems, each pair's once.
+std::vector<double> overlapsOfProblems(const Section& section, const Selection& selection);
+
 /// Problems that some method has in a selection, and those that all methods have that have any
 /// there: medians of different problems are no ranking.
 struct ProblemCounts {

@@ -10,20 +10,6 @@
 namespace pcrb_tools {
 namespace {
 
-/// Overlaps of the pairs that the section's problems are of, each once.
-std::vector<double> overlapsOfProblems(const Section& section, const Selection& selection) {
-  std::set<std::string> seen;
-  std::vector<double> overlaps;
-  for (const Entry* entry : section.entries) {
-    for (const ScoredProblem* problem : select(*entry, selection)) {
-      if (problem->overlap && seen.insert(problem->pair).second) {
-        overlaps.push_back(*problem->overlap);
-      }
-    }
-  }
-  return overlaps;
-}
-
 std::vector<Json> sequenceRow(const Section& section, const Selection& selection,
                               const std::string& root) {
   const auto& [data_set, sequence] = *selection.sequences.begin();
