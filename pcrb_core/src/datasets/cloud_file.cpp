@@ -23,9 +23,14 @@ std::string endingOf(std::string_view file_name) {
 }
 
 SensorScan scanOfPcd(std::string_view bytes, OriginPoints origin, const std::string& name) {
-  const DatasetCloud cloud = parsePcd(bytes.data(), bytes.data() + bytes.size(), name);
+  // Who converts a file holds a share of the process's budget already, and would wait for itself.
+  MemoryBudget own(MemoryBudget::ofProcess().limit());
+  PcdReadOptions options;
+  options.budget = &own;
+  const DatasetCloud cloud = parsePcd(bytes.data(), bytes.data() + bytes.size(), name, options);
   SensorScan scan;
   scan.viewpoint = cloud.viewpoint;
+  scan.is_viewpoint_known = cloud.is_viewpoint_known;
   scan.points.reserve(cloud.points.size());
   for (const Eigen::Vector3d& point : cloud.points) scan.add(point, origin);
   scan.counts.read += cloud.dropped_non_finite;

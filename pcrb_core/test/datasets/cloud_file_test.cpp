@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/memory_budget.hpp"
 #include "support/expect_error.hpp"
 
 namespace pcrb {
@@ -47,6 +48,22 @@ std::string npy(const std::string& descr, const std::string& shape, const std::s
 TEST(CloudFile, KnowsItsEndingsInAnyCase) {
   for (const char* name : {"a.pcd", "b.PLY", "c.bin", "d.Npy"}) EXPECT_TRUE(isCloudFileName(name));
   for (const char* name : {"a.txt", "pcd", "a.pcd.gz"}) EXPECT_FALSE(isCloudFileName(name));
+}
+
+constexpr const char* kPcd =
+    "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+    "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n1.5 -2 3\n4 5 6\n";
+
+TEST(CloudFile, ReadsAPcdWhileItsReaderHoldsAllMemoryOfTheProcess) {
+  MemoryBudget& budget = MemoryBudget::ofProcess();
+  const auto share = budget.take(budget.limit());
+  expectTwoPoints(parse(kPcd, "a.pcd"));
+}
+
+TEST(CloudFile, KeepsWhatAPcdSaysOfAnIdentityViewpoint) {
+  EXPECT_FALSE(parse(kPcd, "a.pcd").is_viewpoint_known);
+  EXPECT_TRUE(
+      parse("# VIEWPOINT is the sensor's pose\n" + std::string(kPcd), "a.pcd").is_viewpoint_known);
 }
 
 TEST(CloudFile, StampsAreFoundInNames) {

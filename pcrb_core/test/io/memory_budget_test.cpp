@@ -1,6 +1,7 @@
 #include "pcrb_core/io/memory_budget.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <thread>
@@ -55,7 +56,10 @@ TEST(MemoryBudget, LetsAThreadWaitForItsShareWhileOthersHaveIt) {
 }
 
 TEST(MemoryBudget, OfTheProcessIsAtMostAQuarterOfTheMachines) {
+  const auto machine = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+                       static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
   EXPECT_GT(MemoryBudget::ofProcess().limit(), 10000000u);
+  EXPECT_LE(MemoryBudget::ofProcess().limit(), machine / 4);
 }
 
 }  // namespace

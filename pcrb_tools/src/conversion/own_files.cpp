@@ -260,6 +260,7 @@ class OwnFiles {
               converted.counts = scan.counts;
               converted.cloud.points = std::move(scan.points);
               converted.cloud.viewpoint = scan.viewpoint;
+              converted.cloud.is_viewpoint_known = scan.is_viewpoint_known;
               return converted;
             }};
   }

@@ -27,7 +27,8 @@ enum class OriginPoints { kKeep, kDrop };
 struct SensorScan {
   std::vector<Eigen::Vector3d> points;  ///< m, finite; in the sensor's frame unless said otherwise
   std::vector<double> times;  ///< s of each point, as the log has them; empty where it has none
-  Transform viewpoint = Transform::Identity();  ///< of a PCD; identity counts as unknown
+  Transform viewpoint = Transform::Identity();  ///< of a PCD
+  bool is_viewpoint_known = false;              ///< as DatasetCloud's
   PointCounts counts;
 
   /// Counts a point and keeps it if it is one.
