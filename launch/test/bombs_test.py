@@ -163,9 +163,15 @@ class BombsTest(TestCase):
 
     def test_a_store_with_a_reason_of_half_a_gigabyte(self):
         with sqlite3.connect(os.path.join(self.folder, 'results.sqlite')) as store:
-            store.executescript('CREATE TABLE run(key PRIMARY KEY, value); PRAGMA user_version = 1;'
-                                "INSERT INTO run VALUES ('secret', zeroblob(500000000))")
-        self.explode('store with 500 MB of a text', '(results.sqlite|memory)', 'report', self.folder, '--output', self.path('report'))
+            store.executescript(
+                'CREATE TABLE run(key, value); CREATE TABLE session(started, ended, host, pid);'
+                'CREATE TABLE result(data_set, sequence, kind, problem_id, source, target, overlap, outcome, reason, error,'
+                ' initial_misalignment, rotation_error_rad, translation_error_m, runtime_s, solver_time_s, scans_used,'
+                ' target_changed, replies_rejected, x, y, z, qx, qy, qz, qw, covariance, finished); PRAGMA user_version = 1;'
+                "INSERT INTO result VALUES ('rooms', 'hall', 'local', '1', 'a.pcd', 'b.pcd', 0.5, 'failed', zeroblob(500000000),"
+                ' 1, 1, 0, 0, NULL, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 1)')
+        self.explode('store with 500 MB of a text', r'results\.sqlite: cannot .*too big', 'report', self.folder, '--output',
+                     self.path('report'))
 
     def test_limits_of_a_process_are_one_line(self):
         for i in range(3):

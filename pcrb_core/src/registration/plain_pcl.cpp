@@ -2,7 +2,6 @@
 // these methods probably are (docs/methods.md). icp.cpp, gicp.cpp and ndt.cpp do what its text
 // says.
 
-#include <pcl/console/print.h>
 #include <pcl/registration/correspondence_rejection_median_distance.h>
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>

@@ -72,31 +72,9 @@ std::array<double, 36> parseCovariance(const std::string& text, const std::strin
   return covariance;
 }
 
-void bindPose(const Result& result, Statement& statement) {
-  for (int i = 0; i < 3; ++i) {
-    if (result.position) {
-      statement.bind((*result.position)[i]);
-    } else {
-      statement.bindNull();
-    }
-  }
-  for (int i = 0; i < 4; ++i) {
-    if (result.orientation) {
-      statement.bind(result.orientation->coeffs()[i]);  // x y z w
-    } else {
-      statement.bindNull();
-    }
-  }
-}
-
 /// The row, for messages.
 std::string whereOf(const Result& result, const std::string& path) {
   return path + ": result of " + result.key.subject() + ": ";
-}
-
-std::optional<double> optionalReal(const Statement& row, int column) {
-  if (row.isNull(column)) return std::nullopt;
-  return row.real(column);
 }
 
 std::uint32_t readCount(const Statement& row, int column, const std::string& path) {
@@ -106,14 +84,6 @@ std::uint32_t readCount(const Statement& row, int column, const std::string& pat
                      ", expected 0 to 2^32 - 1");
   }
   return static_cast<std::uint32_t>(value);
-}
-
-void readPose(const Statement& row, int first_column, Result& result) {
-  const auto at = [&](int i) { return row.real(first_column + i); };
-  if (!row.isNull(first_column)) result.position = Eigen::Vector3d(at(0), at(1), at(2));
-  if (!row.isNull(first_column + 3)) {
-    result.orientation = Eigen::Quaterniond(at(6), at(3), at(4), at(5));
-  }
 }
 
 /// SQLite takes any text for a number, and 0 for its value: a perfect score.
@@ -134,12 +104,37 @@ struct Bounded {
 
 }  // namespace
 
-std::string insertResultSql() {
-  const std::string columns = kResultColumns;
+std::string insertSql(const std::string& table, const std::string& columns) {
   std::string placeholders = "?";
   for (auto i = std::count(columns.begin(), columns.end(), ','); i > 0; --i) placeholders += ", ?";
-  return "INSERT INTO result (" + columns + ") VALUES (" + placeholders + ")";
+  return "INSERT INTO " + table + " (" + columns + ") VALUES (" + placeholders + ")";
 }
+
+std::optional<double> optionalReal(const Statement& row, int column) {
+  if (row.isNull(column)) return std::nullopt;
+  return row.real(column);
+}
+
+void bindPose(const std::optional<Eigen::Vector3d>& position,
+              const std::optional<Eigen::Quaterniond>& orientation, Statement& statement) {
+  for (int i = 0; i < 3; ++i) {
+    statement.bind(position ? std::optional<double>((*position)[i]) : std::nullopt);
+  }
+  for (int i = 0; i < 4; ++i) {
+    statement.bind(orientation ? std::optional<double>(orientation->coeffs()[i]) : std::nullopt);
+  }
+}
+
+void readPose(const Statement& row, int first_column, std::optional<Eigen::Vector3d>& position,
+              std::optional<Eigen::Quaterniond>& orientation) {
+  const auto at = [&](int i) { return row.real(first_column + i); };
+  if (!row.isNull(first_column)) position = Eigen::Vector3d(at(0), at(1), at(2));
+  if (!row.isNull(first_column + 3)) {
+    orientation = Eigen::Quaterniond(at(6), at(3), at(4), at(5));
+  }
+}
+
+std::string insertResultSql() { return insertSql("result", kResultColumns); }
 
 void bindResult(const Result& result, Statement& statement) {
   statement.bind(result.key.data_set);
@@ -161,7 +156,7 @@ void bindResult(const Result& result, Statement& statement) {
                                    : std::nullopt);
   statement.bind(std::int64_t{result.target_changed});
   statement.bind(std::int64_t{result.replies_rejected});
-  bindPose(result, statement);
+  bindPose(result.position, result.orientation, statement);
   statement.bind(result.covariance ? std::optional(formatCovariance(*result.covariance))
                                    : std::nullopt);
   statement.bind(result.finished);
@@ -196,7 +191,7 @@ Result readResult(const Statement& row, const std::string& path) try {
   ++column;
   result.target_changed = row.integer(column++) != 0;
   result.replies_rejected = readCount(row, column++, path);
-  readPose(row, column, result);
+  readPose(row, column, result.position, result.orientation);
   column += 7;
   if (!row.isNull(column)) result.covariance = parseCovariance(row.text(column), path);
   result.finished = row.real(++column);

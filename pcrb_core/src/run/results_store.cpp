@@ -200,6 +200,7 @@ void ResultsStore::addAll(const std::vector<Result>& results) {
       impl_->insert_scan->run([&](Statement& row) { bindScan(result.key, record, row); });
     }
   }
+  impl_->requireFileInPlace();
   transaction.commit();
 }
 
@@ -220,7 +221,6 @@ void ResultsStore::insert(const Result& result) {
     throw StoreError(path() + ": found a result of " + result.key.subject() +
                      ", expected none: every problem has exactly one");
   }
-  impl_->requireFileInPlace();
 }
 
 std::set<ProblemKey> ResultsStore::finished() const {

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "pcrb_core/run/results_store.hpp"
 #include "run/store_tables.hpp"
 
@@ -25,12 +23,7 @@ const char* const kScanColumns =
     "data_set, sequence, kind, problem_id, scan, sent_s, answered_s, is_echo, error, x, y, z, qx, "
     "qy, qz, qw";
 
-std::string insertScanSql() {
-  const std::string columns = kScanColumns;
-  std::string placeholders = "?";
-  for (auto i = std::count(columns.begin(), columns.end(), ','); i > 0; --i) placeholders += ", ?";
-  return "INSERT INTO scan (" + columns + ") VALUES (" + placeholders + ")";
-}
+std::string insertScanSql() { return insertSql("scan", kScanColumns); }
 
 void bindScan(const ProblemKey& key, const ScanRecord& record, Statement& statement) {
   statement.bind(key.data_set);
@@ -42,29 +35,17 @@ void bindScan(const ProblemKey& key, const ScanRecord& record, Statement& statem
   statement.bind(record.answered);
   statement.bind(std::int64_t{record.is_echo});
   statement.bind(record.error);
-  for (int i = 0; i < 3; ++i) {
-    statement.bind(record.position ? std::optional<double>((*record.position)[i]) : std::nullopt);
-  }
-  for (int i = 0; i < 4; ++i) {  // x y z w
-    statement.bind(record.orientation ? std::optional<double>(record.orientation->coeffs()[i])
-                                      : std::nullopt);
-  }
+  bindPose(record.position, record.orientation, statement);
 }
 
 ScanRecord readScan(const Statement& row) {
-  const auto real = [&](int column) {
-    return row.isNull(column) ? std::nullopt : std::optional<double>(row.real(column));
-  };
   ScanRecord record;
   record.scan = static_cast<std::uint32_t>(row.integer(4));
   record.sent = row.real(5);
-  record.answered = real(6);
+  record.answered = optionalReal(row, 6);
   record.is_echo = row.integer(7) != 0;
-  record.error = real(8);
-  if (!row.isNull(9)) record.position = Eigen::Vector3d(row.real(9), row.real(10), row.real(11));
-  if (!row.isNull(12)) {
-    record.orientation = Eigen::Quaterniond(row.real(15), row.real(12), row.real(13), row.real(14));
-  }
+  record.error = optionalReal(row, 8);
+  readPose(row, 9, record.position, record.orientation);
   return record;
 }
 

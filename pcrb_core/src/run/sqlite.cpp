@@ -34,7 +34,8 @@ const char* causeOfLockFailure(int extended_code) {
 }  // namespace
 
 Database::Database(const std::string& path, int flags, const std::string& uri) : path_(path) {
-  constexpr int kBusyTimeoutMs = 5000;  // somebody looks into the store with another program
+  constexpr int kBusyTimeoutMs = 5000;     // somebody looks into the store with another program
+  constexpr int kLongestValue = 64 << 20;  // bytes, far above all that a run has
   sqlite3* handle = nullptr;
   const std::string& name = uri.empty() ? path : uri;
   const int code = sqlite3_open_v2(name.c_str(), &handle, flags, nullptr);
@@ -43,6 +44,7 @@ Database::Database(const std::string& path, int flags, const std::string& uri) :
   if (code != SQLITE_OK) fail("open it");
   sqlite3_extended_result_codes(handle, 1);
   sqlite3_busy_timeout(handle, kBusyTimeoutMs);
+  sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kLongestValue);
 }
 
 void Database::execute(const char* sql, const char* action) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <optional>
 #include <string>
 
 #include "pcrb_core/run/result.hpp"
@@ -9,6 +11,18 @@ namespace pcrb {
 
 /// Statements that make the tables of a results store (docs/formats.md).
 extern const char* const kResultsSchema;
+
+/// `INSERT` of one row with a placeholder for each column.
+std::string insertSql(const std::string& table, const std::string& columns);
+
+/// Nothing for NULL.
+std::optional<double> optionalReal(const Statement& row, int column);
+
+/// Seven columns: x y z of the position, x y z w of the orientation; NULL where there is none.
+void bindPose(const std::optional<Eigen::Vector3d>& position,
+              const std::optional<Eigen::Quaterniond>& orientation, Statement& statement);
+void readPose(const Statement& row, int first_column, std::optional<Eigen::Vector3d>& position,
+              std::optional<Eigen::Quaterniond>& orientation);
 
 /// Statement that makes the table of scans, which stores of older versions lack.
 extern const char* const kScanSchema;
