@@ -18,6 +18,7 @@ constexpr const char* kScan = "scan";               ///< of replay
 constexpr const char* kSensor = "sensor";           ///< of replay: true pose of the scan's sensor
 constexpr const char* kPath = "path";               ///< of replay: the same of all scans so far
 constexpr const char* kSourceTrue = "source_true";  ///< of replay: the source at ground truth
+constexpr const char* kCaption = "caption";         ///< of replay: rows `name: value`
 constexpr const char* kTf = "/tf";
 constexpr const char* kTfStatic = "/tf_static";
 constexpr const char* kDebugTruth = "debug/truth";                ///< only with ~debug
@@ -32,7 +33,8 @@ constexpr const char* kSubmitPose = "submit_pose";
 constexpr const char* kStart = "start";  ///< private, as are the next two
 constexpr const char* kPause = "pause";
 constexpr const char* kSkip = "skip";
-constexpr const char* kStep = "step";  ///< of replay
+constexpr const char* kStep = "step";  ///< of replay, as is the next one
+constexpr const char* kBack = "back";
 
 }  // namespace services
 

@@ -148,6 +148,18 @@ void RobotInputs::sendInitialPose(const Transform& T_map_body) {
 void RobotInputs::setScan(const PointCloud& cloud, const SensorMounting& mounting) {
   scan_cloud_ = withIntensity(cloud);
   scan_mounting_ = mounting;
+  makeScan(Transform::Identity());
+}
+
+void RobotInputs::makeScan(const Transform& T_first_base) {
+  const Transform& E = scan_mounting_.T_base_scan;
+  const bool is_there = T_first_base.matrix() == Eigen::Matrix4d::Identity();
+  const Transform T_scan_source =
+      is_there ? scan_mounting_.T_scan_source  // to the bit: E⁻¹ E is rounded
+               : Transform(E.inverse() * T_first_base.inverse() * E * scan_mounting_.T_scan_source);
+  scan_message_ =
+      toMessage(scan_cloud_, T_scan_source, makeHeader(parameters_.scan_frame, ros::Time()));
+  scan_way_ = T_first_base;
 }
 
 Transform RobotInputs::odometryAt(const ros::Time& stamp) const {
@@ -176,10 +188,9 @@ RobotInputs::SentScan RobotInputs::sendScan(bool is_first_of_problem) {
   links_.sendDynamic(time_of_scan, T_odom_base);
   sendMotion(time_of_scan);
   SentScan sent{stamp, T_odom_first_.inverse() * T_odom_base};
-  const Transform& E = scan_mounting_.T_base_scan;
-  const Transform T_now_first = E.inverse() * sent.T_first_base.inverse() * E;  // of the sensor
-  scan_.publish(toMessage(scan_cloud_, T_now_first * scan_mounting_.T_scan_source,
-                          makeHeader(parameters_.scan_frame, time_of_scan)));
+  if (sent.T_first_base.matrix() != scan_way_.matrix()) makeScan(sent.T_first_base);
+  scan_message_.header.stamp = time_of_scan;
+  scan_.publish(scan_message_);
   return sent;
 }
 

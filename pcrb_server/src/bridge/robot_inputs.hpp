@@ -134,6 +134,9 @@ class RobotInputs {
 
   Transform odometryAt(const ros::Time& stamp) const;
 
+  /// The message of the scan for a body that has gone so far since the first one.
+  void makeScan(const Transform& T_first_base);
+
   void sendMotion(const ros::Time& until);
   ros::Time now() { return toTime(clock_.now(toNanoseconds(ros::Time::now()))); }
 
@@ -147,6 +150,8 @@ class RobotInputs {
   StraightMotion motion_;
   PointCloud scan_cloud_;
   SensorMounting scan_mounting_;
+  sensor_msgs::PointCloud2 scan_message_;
+  Transform scan_way_ = Transform::Identity();      ///< of the body, that scan_message_ is for
   Transform T_odom_first_ = Transform::Identity();  ///< of the body at the problem's first scan
   ros::Publisher map_;
   ros::Publisher scan_;

@@ -105,9 +105,9 @@ class SequencePlayback : public Playback {
     return scene;
   }
 
-  /// The map grows anew up to there.
+  /// The map and the path, where there are any, grow anew up to there.
   void seek(std::size_t position) override {
-    position_ = 0;
+    position_ = options_.publish_ground_truth ? 0 : position;
     while (position_ < position) next(ros::Time(0, 1));
   }
 

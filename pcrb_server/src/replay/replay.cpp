@@ -17,8 +17,6 @@ constexpr std::uint32_t kSceneQueue = 10;
 
 /// s: a node that ends drops what it has not sent yet, and who has just subscribed gets nothing.
 constexpr double kLastSceneHold = 1.0;
-constexpr const char* kBack = "back";        // service, beside kStep
-constexpr const char* kCaption = "caption";  // topic: std_msgs/String, rows `name: value`
 
 }  // namespace
 
@@ -31,7 +29,7 @@ void ScenePublisher::publish(const Scene& scene, const ros::Time& due) {
     publisher.publish(message);
   });
   if (due != scene.stamp) return;
-  if (!caption_) caption_ = node_.advertise<std_msgs::String>(kCaption, 1, true);
+  if (!caption_) caption_ = node_.advertise<std_msgs::String>(topics::kCaption, 1, true);
   std_msgs::String caption;
   caption.data = scene.caption;
   caption_.publish(caption);
@@ -76,7 +74,7 @@ void Replay::offerServices() {
     is_paused_ = true;
     ++steps_;
   });
-  offer(kBack, "paused, one scene back", [this] {
+  offer(services::kBack, "paused, one scene back", [this] {
     is_paused_ = true;
     ++steps_back_;
   });
@@ -86,12 +84,11 @@ bool Replay::waitForTurn() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!is_over_) {
     if (is_paused_ && steps_ + steps_back_ > 0) {
-      if (steps_back_ > 0) {
-        goBack();
-      } else {
-        --steps_;
-      }
+      const bool is_back = steps_back_ > 0;
+      --(is_back ? steps_back_ : steps_);
       due_ = Clock::now();
+      lock.unlock();  // services answer while clouds are read
+      if (is_back) goBack();
       return true;
     }
     if (is_paused_) {
@@ -108,7 +105,6 @@ bool Replay::waitForTurn() {
 
 /// Makes the scene before the one that is shown the next one; before the first one is the last one.
 void Replay::goBack() {
-  --steps_back_;
   const std::size_t size = playback_->size();
   next_ = (next_ + 2 * size - 2) % size;
   playback_->seek(next_);
