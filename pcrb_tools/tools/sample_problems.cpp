@@ -1,37 +1,25 @@
-#include <map>
-
 #include "common/tool_main.hpp"
 #include "preparation/preparation_tools.hpp"
 
 namespace {
 
-/// What a choice is called on the command line.
-struct Choices {
-  std::string kind = "both";
-  std::string bounds = "measured";
-  std::string top_up = "even";
-};
-
-const std::map<std::string, std::vector<pcrb::Kind>> kKinds{
-    {"local", {pcrb::Kind::kLocal}},
-    {"global", {pcrb::Kind::kGlobal}},
-    {"both", {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}}};
-const std::map<std::string, pcrb::BoundsSource> kBounds{{"measured", pcrb::BoundsSource::kMeasured},
-                                                        {"note", pcrb::BoundsSource::kNote}};
-const std::map<std::string, pcrb::TopUp> kTopUps{{"even", pcrb::TopUp::kEven},
-                                                 {"paper", pcrb::TopUp::kPaper}};
-
-void addChoices(CLI::App& app, Choices& choices) {
-  app.add_option("--kind", choices.kind, "kind of the problems: local, global or both [both]")
-      ->check(CLI::IsMember(kKinds));
-  app.add_option("--bounds", choices.bounds,
-                 "bounds of the perturbations of the four published data sets: measured in the "
-                 "published problem files, or of upstream's note [measured]")
-      ->check(CLI::IsMember(kBounds));
-  app.add_option("--top-up", choices.top_up,
-                 "pairs that an interval of overlaps lacks: even, from the intervals with the "
-                 "fewest; paper, from all that are left [even]")
-      ->check(CLI::IsMember(kTopUps));
+void addChoices(CLI::App& app, pcrb_tools::SamplingOptions& options) {
+  using Kinds = std::vector<pcrb::Kind>;
+  pcrb_tools::addChoice<Kinds>(app, "--kind", options.kinds,
+                               {{"local", {pcrb::Kind::kLocal}},
+                                {"global", {pcrb::Kind::kGlobal}},
+                                {"both", {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}}},
+                               "kind of the problems: local, global or both [both]");
+  pcrb_tools::addChoice<pcrb::BoundsSource>(
+      app, "--bounds", options.bounds,
+      {{"measured", pcrb::BoundsSource::kMeasured}, {"note", pcrb::BoundsSource::kNote}},
+      "bounds of the perturbations of the four published data sets: measured in the "
+      "published problem files, or of upstream's note [measured]");
+  pcrb_tools::addChoice<pcrb::TopUp>(
+      app, "--top-up", options.top_up,
+      {{"even", pcrb::TopUp::kEven}, {"paper", pcrb::TopUp::kPaper}},
+      "pairs that an interval of overlaps lacks: even, from the intervals with the "
+      "fewest; paper, from all that are left [even]");
 }
 
 void addOptions(CLI::App& app, pcrb_tools::SamplingOptions& options) {
@@ -63,13 +51,9 @@ int main(int argc, char** argv) {
       "record the seed. Needs the matrix of compute_overlap.\n"
       "Example: sample_problems ~/pcrb/planetary/p2at_met --map box_map.pcd");
   pcrb_tools::SamplingOptions options;
-  Choices choices;
   addOptions(app, options);
-  addChoices(app, choices);
+  addChoices(app, options);
   return pcrb_tools::runTool(app, argc, argv, [&] {
-    options.kinds = kKinds.at(choices.kind);
-    options.bounds = kBounds.at(choices.bounds);
-    options.top_up = kTopUps.at(choices.top_up);
     runSamplingTool(options);
     return pcrb_tools::kSuccess;
   });

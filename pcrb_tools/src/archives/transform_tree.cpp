@@ -58,7 +58,6 @@ TransformTree::TransformTree(const BagMessages& bags) {
   for (auto& [child, gathered] : frames) {
     Link& link = links_[child];
     link.parent = gathered.parent;
-    for (const auto& pose : gathered.poses) link.stamps.push_back(pose.stamp);
     link.transforms.emplace(std::move(gathered.poses));
     link.is_static = gathered.is_static || link.transforms->size() == 1;
   }
@@ -114,7 +113,7 @@ std::vector<pcrb::Stamp> TransformTree::stampsBetween(const std::string& target,
   std::vector<pcrb::Stamp> most;
   for (const std::string& frame : frames) {
     const Link& link = links_.at(frame);
-    if (!link.is_static && link.stamps.size() > most.size()) most = link.stamps;
+    if (!link.is_static && link.transforms->size() > most.size()) most = link.transforms->stamps();
   }
   return most;
 }

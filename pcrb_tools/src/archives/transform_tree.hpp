@@ -18,7 +18,6 @@ class TransformTree {
   /// @throws InvalidFile  for transforms that are none, and a frame with two parents.
   explicit TransformTree(const BagMessages& bags);
 
-  bool empty() const { return links_.empty(); }
   bool has(const std::string& frame) const;
 
   /// The last frame on the way up from one.
@@ -35,7 +34,7 @@ class TransformTree {
   pcrb::PoseLookup lookup(const std::string& target, const std::string& source, pcrb::Stamp stamp,
                           pcrb::Stamp max_gap) const;
 
-  /// The stamps of the link with the most transforms on the way between two frames.
+  /// The stamps, ascending, of the link with the most transforms on the way between two frames.
   std::vector<pcrb::Stamp> stampsBetween(const std::string& target,
                                          const std::string& source) const;
 
@@ -47,7 +46,6 @@ class TransformTree {
     std::string parent;
     bool is_static = false;
     std::optional<pcrb::Trajectory> transforms;  ///< T_parent_child
-    std::vector<pcrb::Stamp> stamps;
   };
 
   /// The frames whose links lie on the way from the source up, and from the target up.

@@ -9,6 +9,7 @@
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/run/results_store.hpp"
 #include "pcrb_core/run/run_info.hpp"
 
@@ -71,18 +72,12 @@ std::vector<Experiment> chosen(const PaperOptions& options) {
   return experiments;
 }
 
-std::string joinedSequences(const std::vector<std::string>& sequences) {
-  std::string text;
-  for (const std::string& sequence : sequences) text += (text.empty() ? "" : " ") + sequence;
-  return text;
-}
-
 BatchOptions batchOf(const PaperOptions& options, const Experiment& experiment) {
   BatchOptions batch;
   batch.run = options.run + "/" + experiment.method;
   batch.jobs = options.jobs;
   batch.arguments = {"root:=" + options.root,
-                     "sequences:=" + joinedSequences(options.sequences),
+                     "sequences:=" + pcrb::joined(options.sequences, " "),
                      "kind:=" + experiment.kind,
                      "subset:=" + std::to_string(options.subset),
                      "seed:=" + std::to_string(options.seed),

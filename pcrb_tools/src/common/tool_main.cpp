@@ -14,6 +14,7 @@
 
 #include "pcrb_core/io/memory_budget.hpp"
 #include "pcrb_core/io/process_limits.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/parallel.hpp"
 #include "pcrb_server/node_parameters.hpp"
 
@@ -49,20 +50,15 @@ void requireAbsolutePaths(const CLI::App& app, int argc, char** argv) {
   }
 }
 
-std::string joinedNames(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
-}
-
 /// All options, for programs in front of this one: a line each, with tabs between long names, short
 /// names, the name of its place, type and limits, default, 1 if it must be given, the largest
 /// number of words that follow it, and the help.
 int describeOptions(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (option == app.get_help_ptr()) continue;
-    std::cout << joinedNames(option->get_lnames()) << '\t' << joinedNames(option->get_snames())
-              << '\t' << (option->get_positional() ? option->get_name(true) : "") << '\t'
+    std::cout << pcrb::joined(option->get_lnames(), ",") << '\t'
+              << pcrb::joined(option->get_snames(), ",") << '\t'
+              << (option->get_positional() ? option->get_name(true) : "") << '\t'
               << option->get_type_name() << '\t' << option->get_default_str() << '\t'
               << option->get_required() << '\t' << option->get_items_expected_max() << '\t'
               << option->get_description() << '\n';

@@ -30,7 +30,7 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
 /// `--run=~/a` and `root:=~/a`.
 std::string withHomeFolder(const std::string& word);
 
-/// Adds `--threads`, by default one per processor.
+/// Adds `--jobs` (`--threads`), by default one per processor.
 CLI::Option* addThreadsOption(CLI::App& app, int& threads);
 
 /// Whether an output is complete and unchanged, which is said on standard error: then a tool has

@@ -24,7 +24,6 @@ struct ConversionRequest {
   /// be another one than before, or a part, so that what an earlier run made is neither taken for
   /// done nor removed.
   bool live = false;
-  double max_malformed = 0.01;  ///< share of a text scan's lines that may be no point
   bool force = false;  ///< replace clouds that no converter made, or that were changed since
 };
 

@@ -111,8 +111,6 @@ void addCommonOptions(ConverterOptions& options, ConversionRequest& request, Liv
                      "number of threads, which does not change a byte");
   options.addSwitch(
       "force", [&request] { request.force = true; }, "replace clouds that no converter made");
-  options.addNumber("max_malformed", request.max_malformed,
-                    "share of a scan's lines that may be no point, 0 to 1");
   options.addInteger("max_waiting", live.max_waiting, 1, kMostWaiting,
                      "clouds that may wait to be converted; what comes beyond is dropped and "
                      "counted",
@@ -188,6 +186,8 @@ int runPlanetaryConverter(int argc, char** argv) {
   LiveOptions live;
   ConverterOptions options;
   addCommonOptions(options, request, live);
+  options.addNumber("max_malformed", request.max_malformed,
+                    "share of a scan's lines that may be no point, 0 to 1");
   return runOffline(argc, argv, help, options, request, convertPlanetary);
 }
 

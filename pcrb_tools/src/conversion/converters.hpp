@@ -6,6 +6,7 @@
 #include "conversion/conversion.hpp"
 #include "pcrb_core/datasets/eth.hpp"
 #include "pcrb_core/datasets/kaist.hpp"
+#include "pcrb_core/datasets/planetary.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 
 namespace pcrb {
@@ -31,6 +32,8 @@ ConversionReport convertEth(const EthRequest& request);
 
 struct PlanetaryRequest : ConversionRequest {
   PlanetaryRequest() { data_set = "planetary"; }
+
+  double max_malformed = pcrb::kMaxMalformed;  ///< share of a scan's lines that may be no point
 };
 
 /// Converts `box_met` or `p2at_met` of the planetary data set: `<set>_NNN.xyz` with `<set>_NNN.gt`

@@ -1,6 +1,5 @@
 #include <sensor_msgs/PointCloud2.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "archives/bag_messages.hpp"
@@ -121,21 +120,17 @@ class OwnBag {
 
   Placement byTf(const std::string& world, const std::string& body) {
     notes_.push_back("poses: tf of " + world + " > " + body);
-    Placement placement;
-    placement.stamps = tree_.stampsBetween(world, body);
-    if (placement.stamps.empty()) {
+    std::vector<pcrb::Stamp> stamps = tree_.stampsBetween(world, body);
+    if (stamps.empty()) {
       throw pcrb::InvalidFile(
           request_.inputs.front(), 0,
           "no motion between `" + world + "` and `" + body + "` among " + tree_.describe(),
           "tf of a body that moves");
     }
-    std::sort(placement.stamps.begin(), placement.stamps.end());
-    placement.in_world = request_.in_world;
-    placement.T_body_sensor = request_.T_body_sensor.value_or(pcrb::Transform::Identity());
-    placement.body = [this, world, body](pcrb::Stamp stamp) {
+    const auto poses = [this, world, body](pcrb::Stamp stamp) {
       return tree_.lookup(world, body, stamp, request_.max_gap);
     };
-    return complete(std::move(placement), world, body);
+    return complete(placementBy(poses, std::move(stamps), request_), world, body);
   }
 
   /// Finds what lies between body and sensor, and between the poses' world and the wanted one.

@@ -28,19 +28,26 @@ pcrb::PoseStatus Placement::find(pcrb::Stamp stamp, ScanPlace& place) const {
   return pcrb::PoseStatus::kFound;
 }
 
-Placement placementBy(const pcrb::Trajectory& trajectory, const OwnRequest& request) {
-  const auto poses = std::make_shared<const pcrb::Trajectory>(trajectory);
+Placement placementBy(pcrb::PoseAt body, std::vector<pcrb::Stamp> stamps,
+                      const OwnRequest& request) {
   const auto offset = static_cast<pcrb::Stamp>(
       std::llround(request.time_offset * static_cast<double>(pcrb::kSecond)));
   Placement placement;
-  placement.body = [poses, offset, gap = request.max_gap](pcrb::Stamp stamp) {
-    return poses->interpolate(stamp - offset, gap);
+  placement.body = [body = std::move(body), offset](pcrb::Stamp stamp) {
+    return body(stamp - offset);
   };
-  placement.stamps = poses->stamps();
+  placement.stamps = std::move(stamps);
   for (pcrb::Stamp& stamp : placement.stamps) stamp += offset;
   placement.in_world = request.in_world;
   placement.T_body_sensor = request.T_body_sensor.value_or(pcrb::Transform::Identity());
   return placement;
+}
+
+Placement placementBy(const pcrb::Trajectory& trajectory, const OwnRequest& request) {
+  const auto poses = std::make_shared<const pcrb::Trajectory>(trajectory);
+  return placementBy(
+      [poses, gap = request.max_gap](pcrb::Stamp stamp) { return poses->interpolate(stamp, gap); },
+      poses->stamps(), request);
 }
 
 ScanThinner::ScanThinner(const OwnRequest& request, Conversion& conversion)

@@ -33,7 +33,12 @@ struct Placement {
   pcrb::PoseStatus find(pcrb::Stamp stamp, ScanPlace& place) const;
 };
 
-/// A placement by a trajectory, its stamps moved by the request's offset.
+/// A placement by the body's poses, with their ascending stamps, both moved by the request's
+/// offset.
+Placement placementBy(pcrb::PoseAt body, std::vector<pcrb::Stamp> stamps,
+                      const OwnRequest& request);
+
+/// The same by a trajectory.
 Placement placementBy(const pcrb::Trajectory& trajectory, const OwnRequest& request);
 
 /// Decides which scans become clouds: those with a pose, far enough from the one before in space

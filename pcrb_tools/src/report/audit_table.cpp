@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -16,7 +15,6 @@ namespace {
 constexpr double kAuditLevel = 0.01;  // corrected p below which a method is suspected
 constexpr double kNoticeable = 0.1;   // of the audited error: an audit publishes fewer points
 constexpr const char* kConsistent = "consistent";
-constexpr const char* kUntestable = "too few pairs to tell";
 
 /// One row of the table, before the correction of its p-value.
 struct AuditCheck {
@@ -85,32 +83,18 @@ bool isAuditOf(const Entry& b, const Entry& a) {
          plain.presentation.kind == audited.presentation.kind;
 }
 
-/// Median errors of the pairs of clouds, on the problems that both have: plain, audited.
-std::array<std::vector<double>, 2> sharedMedians(const Entry& plain, const Entry& audited,
-                                                 std::size_t& problems) {
-  std::map<pcrb::ProblemKey, double> of_audited;
-  for (const ScoredProblem& problem : audited.problems) of_audited[problem.key] = problem.error;
-  std::map<std::string, std::array<std::vector<double>, 2>> pairs;
-  for (const ScoredProblem& problem : plain.problems) {
-    const auto found = of_audited.find(problem.key);
-    if (found == of_audited.end()) continue;
-    pairs[problem.pair][0].push_back(problem.error);
-    pairs[problem.pair][1].push_back(found->second);
-    ++problems;
-  }
-  std::array<std::vector<double>, 2> medians;
-  for (const auto& [pair, errors] : pairs) {
-    for (std::size_t i : {0u, 1u}) medians[i].push_back(median(errors[i]));
-  }
-  return medians;
-}
-
-void addRunCheck(const Entry& plain, const Entry& audited, std::vector<AuditCheck>& checks) {
+void addRunCheck(const Section& section, const Entry& plain, const Entry& audited,
+                 std::vector<AuditCheck>& checks) {
   AuditCheck check;
   check.method = plain.method;
   check.check = "run without an audit, " + audited.method;
-  const auto medians = sharedMedians(plain, audited, check.problems);
-  check.pairs = medians[0].size();
+  const SharedErrors shared = sharedErrors(plain, audited, *section.at({"total"}).front());
+  std::array<std::vector<double>, 2> medians;
+  for (const auto& [pair, errors] : shared.by_pair) {
+    for (std::size_t i : {0u, 1u}) medians[i].push_back(median(errors[i]));
+  }
+  check.problems = shared.problems;
+  check.pairs = shared.by_pair.size();
   if (check.pairs == 0) return;
   std::vector<double> gains;
   for (std::size_t i = 0; i < check.pairs; ++i) gains.push_back(medians[1][i] - medians[0][i]);
@@ -120,7 +104,7 @@ void addRunCheck(const Entry& plain, const Entry& audited, std::vector<AuditChec
   const bool is_gain =
       test.positive > test.negative && test.pseudomedian > kNoticeable * check.protected_error;
   check.p_value = is_gain ? test.p_value : 1.0;
-  check.smallest_p = 2.0 * std::pow(0.5, static_cast<double>(check.pairs));
+  check.smallest_p = smallestP(check.pairs);
   check.gain = "gains by memory: " + errorWords(check.exposed_error) + " without an audit, " +
                errorWords(check.protected_error) + " with one";
   checks.push_back(check);
@@ -129,7 +113,7 @@ void addRunCheck(const Entry& plain, const Entry& audited, std::vector<AuditChec
 std::string auditVerdict(const AuditCheck& check, double corrected_p, std::size_t family) {
   if (corrected_p < kAuditLevel) return check.gain;
   const bool can_reject = check.smallest_p * static_cast<double>(family) < kAuditLevel;
-  return can_reject ? kConsistent : kUntestable;
+  return can_reject ? kConsistent : kTooFewPairs;
 }
 
 }  // namespace
@@ -139,7 +123,7 @@ Table auditTable(const Section& section) {
   for (const Entry* entry : section.entries) {
     addOrderCheck(*entry, checks);
     for (const Entry* other : section.entries) {
-      if (isAuditOf(*other, *entry)) addRunCheck(*entry, *other, checks);
+      if (isAuditOf(*other, *entry)) addRunCheck(section, *entry, *other, checks);
     }
   }
   std::vector<double> p_values;

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 #include "pcrb_core/evaluation/rank_tests.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
@@ -9,30 +7,6 @@
 
 namespace pcrb_tools {
 namespace {
-
-/// Two methods' errors on the problems that both have.
-struct SharedErrors {
-  std::map<std::string, std::array<std::vector<double>, 2>> by_pair;
-  std::size_t problems = 0;
-};
-
-SharedErrors sharedErrors(const Entry& a, const Entry& b, const Selection& selection) {
-  std::map<pcrb::ProblemKey, std::vector<double>> of_b;  // of all trials
-  for (const ScoredProblem* problem : select(b, selection)) {
-    of_b[problem->key].push_back(problem->error);
-  }
-  SharedErrors shared;
-  for (const ScoredProblem* problem : select(a, selection)) {
-    const auto found = of_b.find(problem->key);
-    if (found == of_b.end()) continue;
-    auto& errors = shared.by_pair[problem->pair];
-    errors[0].push_back(problem->error);
-    errors[1].insert(errors[1].end(), found->second.begin(), found->second.end());
-    if (!found->second.empty()) ++shared.problems;
-    found->second.clear();  // they count once, however many trials a has
-  }
-  return shared;
-}
 
 struct Comparison {
   const Entry* a;
@@ -59,16 +33,14 @@ Json better(const Comparison& comparison, double corrected_p) {
   return is_a ? comparison.a->method : comparison.b->method;
 }
 
-/// Whether the test could reject at all: the smallest p of so many pairs is 2 / 2^n, which Holm's
-/// correction multiplies by the size of the family.
+/// Whether the test could reject at all: Holm's correction multiplies p by the size of the family.
 bool canReject(std::size_t pairs, std::size_t family) {
-  const double smallest_p = 2.0 * std::pow(0.5, static_cast<double>(pairs));
-  return smallest_p * static_cast<double>(family) < kSignificance;
+  return smallestP(pairs) * static_cast<double>(family) < kSignificance;
 }
 
 std::string verdictOf(const Json& winner, std::size_t pairs, std::size_t family) {
   if (!winner.is_null()) return winner.get<std::string>() + " is better";
-  return canReject(pairs, family) ? "no difference shown" : "too few pairs to tell";
+  return canReject(pairs, family) ? "no difference shown" : kTooFewPairs;
 }
 
 void addFamily(const Section& section, const std::vector<const Selection*>& selections,

@@ -6,13 +6,12 @@
 #include <tuple>
 
 #include "report/latex.hpp"
+#include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 using Mark = Pivot::Mark;
-
-constexpr const char* kTooFew = "too few pairs to tell";
 
 /// What the tests say of a selection: who is worse than whom, and whom they cannot tell apart.
 struct Tests {
@@ -28,7 +27,7 @@ std::map<std::string, Tests> testsBySelection(const Table& comparisons) {
     Tests& found = tests[reader.text(row, "selection")];
     const std::string better = reader.text(row, "better");
     if (!better.empty()) found.worse.insert({better == a ? b : a, better});
-    if (reader.text(row, "verdict") == kTooFew) found.untold.insert({a, b});
+    if (reader.text(row, "verdict") == kTooFewPairs) found.untold.insert({a, b});
   }
   return tests;
 }

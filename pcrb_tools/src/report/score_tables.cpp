@@ -33,16 +33,8 @@ std::vector<Json> scoreRow(const Entry& entry, const Selection& selection,
     row.push_back(entry.method == kBaseline ? Json(nullptr) : Json(count));
   }
   appendStatistics(pcrb::describe(errorsOf(problems)), row);
-  pcrb::BootstrapOptions bootstrap;
-  bootstrap.resamples = options.resamples;
-  bootstrap.seed = options.seed;
-  const auto units = unitsOf(problems);
-  const std::size_t pairs = units.empty() ? 0 : *std::max_element(units.begin(), units.end()) + 1;
-  const auto interval = pcrb::medianInterval(errorsOf(problems), units, bootstrap);
-  for (const double end : {interval.low, interval.high}) {
-    row.push_back(pairs < kFewestPairs ? Json(nullptr) : number(end));
-  }
-  row.emplace_back(pairs);
+  const MedianInterval interval = medianIntervalOf(problems, options);
+  row.insert(row.end(), {interval.low, interval.high, Json(interval.pairs)});
   return row;
 }
 
@@ -71,6 +63,20 @@ bool hasBothKinds(const std::vector<Section>& sections, const std::string& metho
 }
 
 }  // namespace
+
+MedianInterval medianIntervalOf(const Problems& problems, const ReportOptions& options) {
+  pcrb::BootstrapOptions bootstrap;
+  bootstrap.resamples = options.resamples;
+  bootstrap.seed = options.seed;
+  const auto units = unitsOf(problems);
+  MedianInterval found;
+  found.pairs = units.empty() ? 0 : *std::max_element(units.begin(), units.end()) + 1;
+  if (found.pairs < kFewestPairs) return found;
+  const auto interval = pcrb::medianInterval(errorsOf(problems), units, bootstrap);
+  found.low = number(interval.low);
+  found.high = number(interval.high);
+  return found;
+}
 
 Table scoreTable(const Section& section, const ReportOptions& options) {
   Table table{

@@ -168,6 +168,24 @@ std::vector<std::size_t> unitsOf(const Problems& problems) {
   return units;
 }
 
+SharedErrors sharedErrors(const Entry& a, const Entry& b, const Selection& selection) {
+  std::map<pcrb::ProblemKey, std::vector<double>> of_b;  // of all trials
+  for (const ScoredProblem* problem : select(b, selection)) {
+    of_b[problem->key].push_back(problem->error);
+  }
+  SharedErrors shared;
+  for (const ScoredProblem* problem : select(a, selection)) {
+    const auto found = of_b.find(problem->key);
+    if (found == of_b.end()) continue;
+    auto& errors = shared.by_pair[problem->pair];
+    errors[0].push_back(problem->error);
+    errors[1].insert(errors[1].end(), found->second.begin(), found->second.end());
+    if (!found->second.empty()) ++shared.problems;
+    found->second.clear();  // they count once, however many trials a has
+  }
+  return shared;
+}
+
 std::vector<double> overlapsOfProblems(const Section& section, const Selection& selection) {
   std::set<std::string> seen;
   std::vector<double> overlaps;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -62,6 +63,13 @@ Problems select(const Entry& entry, const Selection& selection);
 /// Errors, and the number from 0 of each one's pair of clouds.
 std::vector<double> errorsOf(const Problems& problems);
 std::vector<std::size_t> unitsOf(const Problems& problems);
+
+/// Errors of two entries on the problems that both have, of all trials, by pair of clouds.
+struct SharedErrors {
+  std::map<std::string, std::array<std::vector<double>, 2>> by_pair;
+  std::size_t problems = 0;
+};
+SharedErrors sharedErrors(const Entry& a, const Entry& b, const Selection& selection);
 
 /// Overlaps of the pairs of clouds of all methods' selected problems, each pair's once.
 std::vector<double> overlapsOfProblems(const Section& section, const Selection& selection);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -11,6 +12,13 @@ namespace pcrb_tools {
 
 /// Pairs of clouds below which no interval is given: Wilcoxon's test of five cannot reject either.
 constexpr std::size_t kFewestPairs = 6;
+
+/// The 95 % bootstrap interval of a median over pairs of clouds.
+struct MedianInterval {
+  Json low, high;  ///< null for fewer pairs than kFewestPairs
+  std::size_t pairs = 0;
+};
+MedianInterval medianIntervalOf(const Problems& problems, const ReportOptions& options);
 
 /// Statistics of the error and outcomes, a row per method and selection of all levels, the medians
 /// with their confidence intervals; the baseline comes last.
@@ -25,6 +33,14 @@ Table publishedTable(const Section& section);
 
 /// Level below which a corrected p-value counts as a real difference.
 constexpr double kSignificance = 0.05;
+
+/// The verdict of a test that so few pairs of clouds could not make reject.
+constexpr const char* kTooFewPairs = "too few pairs to tell";
+
+/// The smallest p that Wilcoxon's test of so many pairs can give.
+inline double smallestP(std::size_t pairs) {
+  return 2.0 * std::pow(0.5, static_cast<double>(pairs));
+}
 
 /// Wilcoxon's test of every two methods on the problems that both have, pairs of clouds as units
 /// (their median errors), over everything and per sequence; Holm's correction within either family.
@@ -62,6 +78,7 @@ Table keepingUpTable(const Section& section);
 /// Quartiles of the error after each scan, a panel per sequence; a problem that ended before keeps
 /// its last answer.
 Json errorsOverScans(const Section& section);
+
 /// Whether the replies' covariances are as large as their errors, per method, sequence and total.
 /// No rows where no reply came with one.
 Table covarianceTable(const Section& section);
@@ -79,7 +96,7 @@ Table trialTable(const Section& section);
 Table sweepTable(const Section& section, const ReportOptions& options);
 
 /// What the sequences are (the paper's Tables 2 and 3) and what problems of them are here: data
-/// set, sensor, characteristics and who assigned them, pairs, their overlaps.
+/// set, characteristics and who assigned them, pairs, their overlaps.
 ///
 /// @param root  folder of the data sets; may be empty.
 Table sequenceTable(const Section& section, const std::string& root);

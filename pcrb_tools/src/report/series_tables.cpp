@@ -86,23 +86,17 @@ Table sweepTable(const Section& section, const ReportOptions& options) {
   for (const char* name : {"median", "low", "high", "q95"}) {
     table.columns.push_back({name, Format::kError});
   }
-  pcrb::BootstrapOptions bootstrap;
-  bootstrap.resamples = options.resamples;
-  bootstrap.seed = options.seed;
   for (const Entry* entry : section.entries) {
     if (entry->parameter.empty()) continue;
     const Problems problems = select(*entry, *section.at({"total"}).front());
     const auto errors = errorsOf(problems);
-    const auto units = unitsOf(problems);
     const auto statistics = pcrb::describe(errors);
-    const auto interval = pcrb::medianInterval(errors, units, bootstrap);
-    const bool has_interval = *std::max_element(units.begin(), units.end()) + 1 >= kFewestPairs;
+    const MedianInterval interval = medianIntervalOf(problems, options);
     const auto value = pcrb::parseDouble(entry->value);
-    table.rows.push_back(
-        {entry->series, entry->parameter, value ? Json(*value) : Json(entry->value), entry->method,
-         errors.size(), number(statistics.median),
-         has_interval ? number(interval.low) : Json(nullptr),
-         has_interval ? number(interval.high) : Json(nullptr), number(statistics.q95)});
+    table.rows.push_back({entry->series, entry->parameter,
+                          value ? Json(*value) : Json(entry->value), entry->method, errors.size(),
+                          number(statistics.median), interval.low, interval.high,
+                          number(statistics.q95)});
   }
   return table;
 }

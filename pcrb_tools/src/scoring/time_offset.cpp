@@ -72,7 +72,8 @@ double refine(const OffsetCost& cost, double low, double high) {
   while (high - low > kPrecision) {
     const double left = high - kGolden * (high - low);
     const double right = low + kGolden * (high - low);
-    (at(left) < at(right) ? high : low) = at(left) < at(right) ? right : left;
+    const bool is_left = at(left) < at(right);
+    (is_left ? high : low) = is_left ? right : left;
   }
   return (low + high) / 2.0;
 }

@@ -61,6 +61,14 @@ TEST_F(OwnBagConversion, FindsPosesOnTfFromTheRootOfTheCloudsFrame) {
   expectPlaced(2, bodyAt(2) * sensorInBody());
 }
 
+TEST_F(OwnBagConversion, AnOffsetMovesTheTimesOfPosesOnTfToo) {
+  OwnBagWriter(bag_).addTf().addExtrinsics();
+  OwnRequest late = request();
+  late.time_offset = 0.1;  // the pose of scan k has the stamp of scan k - 1
+  convertOwn(late);
+  expectPlaced(2, bodyAt(1) * sensorInBody());
+}
+
 TEST_F(OwnBagConversion, TakesPosesWithoutABodyAsThoseOfTheCloudsAndSaysSo) {
   {
     OwnBagWriter writer(bag_);

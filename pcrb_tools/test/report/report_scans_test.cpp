@@ -8,7 +8,7 @@
 namespace pcrb_tools {
 namespace {
 
-/// A run of a localization node whose answers to five scans of each problem approach what is true,
+/// A run of a localization node whose answers to seven scans of each problem approach what is true,
 /// the fourth scan without an answer.
 class ReportScansTest : public ReportTest {
  protected:
