@@ -8,16 +8,11 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, Launch, TestCase, executable, rows
+from pcrb_testing import Child, Launch, TestCase, executable, front_door, rows
 from pcrb_testing_client import Client
 
 LATIN_1 = os.fsdecode(b'caf\xe9')
 NO_UTF_8 = 'expected UTF-8: roslaunch takes no other bytes in a path'
-
-
-def front_door():
-    """pcrb lies in the bin of the space whose lib has the programs."""
-    return os.path.join(os.path.dirname(executable('pcrb_tools', 'report')), '..', '..', 'bin', 'pcrb')
 
 
 class HomesTest(TestCase):

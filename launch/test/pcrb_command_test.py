@@ -12,15 +12,10 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, executable, rows, run_info
+from pcrb_testing import Child, TestCase, executable, front_door, rows, run_info
 
 COMMANDS = ('prepare fetch convert overlap sample map import-protocol check run localize probe paper score report compare merge ground-truth replay bag demo '
             'doctor recipes completion options').split() + [f'convert {name}' for name in ('eth', 'planetary', 'tum', 'kaist')]
-
-
-def front_door():
-    """pcrb lies in the bin of the space whose lib has the programs."""
-    return os.path.join(os.path.dirname(executable('pcrb_tools', 'report')), '..', '..', 'bin', 'pcrb')
 
 
 def pcrb(*words, **variables):

@@ -31,6 +31,11 @@ def executable(package, name):
     return found[0]
 
 
+def front_door():
+    """pcrb lies in the bin of the space whose lib has the programs."""
+    return os.path.join(os.path.dirname(executable('pcrb_tools', 'report')), '..', '..', 'bin', 'pcrb')
+
+
 class Child:
     """A process of a test, in a session of its own; its output goes to one file.
 

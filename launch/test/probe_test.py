@@ -8,15 +8,14 @@ import rostest
 import yaml
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pcrb_testing import TestCase, executable
+from pcrb_testing import TestCase, front_door
 
 
 class ProbeTest(TestCase):
 
     def probe(self, node, *words):
         """Exit status, parameters, and what was printed."""
-        pcrb = os.path.join(os.path.dirname(executable('pcrb_tools', 'report')), '..', '..', 'bin', 'pcrb')
-        result = subprocess.run([pcrb, 'probe', '--node', f'localization_standins {node}_localizer.launch', *words],
+        result = subprocess.run([front_door(), 'probe', '--node', f'localization_standins {node}_localizer.launch', *words],
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding='utf-8', check=False)
         text = ' '.join(line.lstrip('# ') for line in result.stdout.splitlines()) + result.stderr
         return result.returncode, yaml.safe_load(result.stdout), text
@@ -32,6 +31,11 @@ class ProbeTest(TestCase):
         self.assertIn('its first answer repeats the initial pose', text)
         with open(self.path('recipe.yaml'), encoding='utf-8') as file:
             self.assertEqual(yaml.safe_load(file), smoothing)
+
+    def test_looks_at_the_poses_that_it_is_told_to(self):
+        status, _, text = self.probe('smoothing', '--pose-topic', '/nobody')
+        self.assertEqual(status, 1, text)
+        self.assertIn('the node answered none of ten scans', text)
 
     def test_bad_manners_are_named(self):
         expected = {'now': ({'match': 'arrival'}, 'stamp of no scan'), 'ahead': ({'answer_delay': 0.2}, '0.2000 s after their scans'),

@@ -191,9 +191,10 @@ py::list findSequences(const std::string& root) {
   return list;
 }
 
-/// The problems of a selection in the order of their files, with what a data set of them needs.
-py::list plan(const std::string& root, const std::vector<std::string>& sequences,
-              const std::vector<std::string>& kinds, std::size_t subset, std::uint64_t seed) {
+pcrb::ProblemSelection selectionOf(const std::string& root,
+                                   const std::vector<std::string>& sequences,
+                                   const std::vector<std::string>& kinds, std::size_t subset,
+                                   std::uint64_t seed) {
   pcrb::ProblemSelection selection;
   selection.root = root;
   selection.sequences = sequences;
@@ -201,8 +202,16 @@ py::list plan(const std::string& root, const std::vector<std::string>& sequences
   for (const std::string& kind : kinds) selection.kinds.push_back(pcrb::kindFromString(kind));
   selection.subset = subset;
   selection.seed = seed;
+  return selection;
+}
+
+/// The problems of a selection in the order of their files, with what a data set of them needs.
+py::list plan(const std::string& root, const std::vector<std::string>& sequences,
+              const std::vector<std::string>& kinds, std::size_t subset, std::uint64_t seed) {
   py::list list;
-  for (const pcrb::PlannedProblem& planned : pcrb::makeRunPlan(selection).problems) {
+  const pcrb::RunPlan problems =
+      pcrb::makeRunPlan(selectionOf(root, sequences, kinds, subset, seed));
+  for (const pcrb::PlannedProblem& planned : problems.problems) {
     py::dict row;
     row["id"] = planned.key.problem_id;
     row["data_set"] = planned.key.data_set;
@@ -210,8 +219,8 @@ py::list plan(const std::string& root, const std::vector<std::string>& sequences
     row["kind"] = toString(planned.key.kind);
     row["source"] = planned.problem.source;
     row["target"] = planned.problem.target;
-    row["source_path"] = planned.source_path;
-    row["target_path"] = planned.target_path;
+    row["source_path"] = pathText(planned.source_path);
+    row["target_path"] = pathText(planned.target_path);
     row["overlap"] = planned.problem.overlap;
     row["voxel_leaf"] = planned.data_set->voxel_leaf;
     row["perturbation"] = py::cast(Eigen::Matrix4d(planned.P.matrix()));
@@ -295,14 +304,7 @@ std::unique_ptr<pcrb::InProcessRun> makeRun(const std::string& root,
   options.client = name;
   pcrb::RunConfiguration& configuration = options.configuration;
   configuration.under_test = name;
-  configuration.selection.root = root;
-  configuration.selection.sequences = sequences;
-  configuration.selection.kinds.clear();
-  for (const std::string& kind : kinds) {
-    configuration.selection.kinds.push_back(pcrb::kindFromString(kind));
-  }
-  configuration.selection.subset = subset;
-  configuration.selection.seed = seed;
+  configuration.selection = selectionOf(root, sequences, kinds, subset, seed);
   configuration.presentation.kind = pcrb::presentationFromString(presentation);
   configuration.time_limit = time_limit;
   return std::make_unique<pcrb::InProcessRun>(options);

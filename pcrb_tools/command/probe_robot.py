@@ -4,6 +4,7 @@ import threading
 import time
 
 import numpy as np
+import probe_recipe
 import rosgraph
 import rospy
 import tf2_msgs.msg
@@ -36,7 +37,6 @@ class Answer:
     delay: float  # s from that scan until it came
     lateness: float  # s from that scan's stamp to the pose's
     parent: str
-    child: str
     error: float  # m from the truth
     is_echo: bool
     is_valid: bool
@@ -126,8 +126,16 @@ class Robot:
         self.settle_down()
         self.choose()
         self.play(is_running)
+        self.keep_wanted()
         self.seen.has_died = not is_running() or not self.look()
         return self.seen
+
+    def keep_wanted(self):
+        """Of all poses those that were asked for: of a topic, or of tf."""
+        wanted = self.hints.pose_topic
+        with self.lock:
+            self.seen.answers = {channel: answers for channel, answers in self.seen.answers.items()
+                                 if not wanted or channel == wanted or wanted == 'tf' and isinstance(channel, tuple)}
 
     def look(self):
         """Notes what nodes take and say; whether one takes clouds."""
@@ -217,14 +225,10 @@ class Robot:
         self.publishers[topic].publish(message)
 
     def send_links(self, stamp):
-        links = [(self.seen.base_frame, SENSOR)]
-        taken = {child for _, child in self.seen.links}
         message = tf2_msgs.msg.TFMessage()
-        for parent, child in links:
-            if child in taken:
-                continue
-            link = TransformStamped(child_frame_id=child)
-            link.header.frame_id, link.header.stamp = parent, stamp
+        if SENSOR not in {child for _, child in self.seen.links}:
+            link = TransformStamped(child_frame_id=SENSOR)
+            link.header.frame_id, link.header.stamp = self.seen.base_frame, stamp
             link.transform.rotation.w = 1.0
             message.transforms.append(link)
         self.send('/tf_static', message, latch=True)
@@ -258,7 +262,7 @@ class Robot:
             self.send('/tf', tf2_msgs.msg.TFMessage([link]))
 
     def take_pose(self, message, topic):
-        self.note(topic, message.header, getattr(message, 'child_frame_id', ''), position_of(message))
+        self.note(topic, message.header, position_of(message))
 
     def take_tf(self, message, is_static):
         if message._connection_header.get('callerid') == OWN:
@@ -268,9 +272,9 @@ class Robot:
             with self.lock:
                 self.seen.links[pair] = is_static
             if not is_static and pair[0] == self.seen.map_frame:
-                self.note(pair, link.header, pair[1], position_of(link))
+                self.note(pair, link.header, position_of(link))
 
-    def note(self, channel, header, child, numbers):
+    def note(self, channel, header, numbers):
         with self.lock:
             if not self.stamps:
                 return
@@ -278,14 +282,14 @@ class Robot:
             is_valid = bool(np.isfinite(numbers).all() and abs(np.linalg.norm(numbers[3:]) - 1) < 1e-2)
             self.seen.answers.setdefault(channel, []).append(Answer(
                 scan=scan, delay=time.monotonic() - self.sent[scan], lateness=header.stamp.to_sec() - self.stamps[scan],
-                parent=header.frame_id.strip('/'), child=child.strip('/'),
+                parent=header.frame_id.strip('/'),
                 error=float(np.linalg.norm(numbers[:3] - TRUTH[:3, 3])),
                 is_echo=bool(np.linalg.norm(numbers[:3] - GUESS[:3, 3]) < 1e-4), is_valid=is_valid))
 
     def scan_of(self, stamp):
         """The scan that a stamp is of, else the newest one."""
         nearest = int(np.argmin(np.abs(np.array(self.stamps) - stamp)))
-        return nearest if abs(self.stamps[nearest] - stamp) < 2e-6 else len(self.stamps) - 1
+        return nearest if abs(self.stamps[nearest] - stamp) < probe_recipe.EXACT else len(self.stamps) - 1
 
 
 def write_pcd(path, points):

@@ -136,14 +136,14 @@ class Tool:
     more     further mistakes of values.
     """
 
-    def __init__(self, name, drop=(), folders=False, changes=None, more=lambda values: []):
-        self.name, self.drop, self.folders, self.changes, self.more = name, set(drop), folders, changes or {}, more
+    def __init__(self, name, folders=False, changes=None, more=lambda values: []):
+        self.name, self.folders, self.changes, self.more = name, folders, changes or {}, more
         self.chosen = []  # the sequences, once check() has found them
 
     def options(self):
         options = []
         for option in described(self.name):
-            if option.name in self.drop or option.name == 'folder' and self.folders:
+            if option.name == 'folder' and self.folders:
                 continue
             is_shared_place = option.positional and option.name in ('root', 'sequences')
             option = shared(dataclasses.replace(option, positional=option.positional and not is_shared_place))

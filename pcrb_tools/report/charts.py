@@ -32,6 +32,12 @@ def rows_of(table):
     return [dict(zip(names, row)) for row in table['rows']]
 
 
+def floors_of(tables):
+    """The accuracy of the ground truth, by sequence, where it is known."""
+    rows = rows_of(tables['ground_truth']) if tables.get('ground_truth') else []
+    return {row['sequence']: row['floor'] for row in rows if row['floor'] is not None}
+
+
 def medians_of(scores):
     """Rows of each sequence and of the total, by name."""
     groups = {}

@@ -44,7 +44,6 @@ def coordinate(value):
 
 
 class Linear:
-    is_logarithmic = False
 
     def __init__(self, low, high, whole=False):
         self.low, self.high = low, high if high > low else low + 1

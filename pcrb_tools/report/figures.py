@@ -114,8 +114,7 @@ def figures_of(section):
     kind, numbers, tables, inks = section['kind'], section['charts'], section['tables'], charts.inks_of(section)
     methods = {name: ink for name, ink in inks.items() if name != section['baseline']}
     scores = charts.rows_of(tables['scores'])
-    floors = {row['sequence']: row['floor'] for row in charts.rows_of(tables['ground_truth'])
-              if row['floor'] is not None} if tables.get('ground_truth') else {}
+    floors = charts.floors_of(tables)
     yield ('medians', sheet([('', charts.median_dots(scores, inks, floors, 2 * WIDTH))], inks),
            f'Median error of the {kind} problems of each sequence, with 95 % bootstrap intervals over pairs of clouds.'
            + (' Grey: the error of the initial guesses.' if section['baseline'] else '')

@@ -178,8 +178,7 @@ def view(section, figures):
     section['published_columns'] = published_columns(published, own)
     section['has_imports'] = any(not m['info'] for m in section['methods'])
     section['shared'] = next(shared_of(s) for s in section['selections'] if s['level'] == 'total')
-    floors = {row['sequence']: row['floor'] for row in charts.rows_of(present['ground_truth'])
-              if row['floor'] is not None} if 'ground_truth' in present else {}
+    floors = charts.floors_of(present)
     section['is_only_kind'] = all(m['planned'] is None or int(m['planned']) >= m['problems'] for m in section['methods'])
     made = {
         'colors': {name: ink.color for name, ink in inks.items()}, 'floors': floors, 'parts': parts_of(section, figures),

@@ -52,13 +52,18 @@ def _submission(answer):
     return _pcrb.pose(*_pcrb.position_and_orientation(rows[:3]))
 
 
-def _open(root, sequences, kind, subset, seed, presentation, time_limit=math.inf, folder='', name=''):
+def selected(sequences, kind):
+    """Words of a selection as a list, and the kinds that a word names."""
     if kind not in KINDS:
         raise _pcrb.InvalidParameter(f'kind: found `{kind}`, expected local, global or both')
+    return sequences.split() if isinstance(sequences, str) else list(sequences), KINDS[kind]
+
+
+def _open(root, sequences, kind, subset, seed, presentation, time_limit=math.inf, folder='', name=''):
+    words, kinds = selected(sequences, kind)
     if not time_limit > 0:
         raise _pcrb.InvalidParameter(f'time_limit: found {time_limit}, expected more than 0 s')
-    words = sequences.split() if isinstance(sequences, str) else list(sequences)
-    return _pcrb.Run(os.fsencode(root), words, KINDS[kind], subset, seed, presentation, time_limit, os.fsencode(folder), name)
+    return _pcrb.Run(os.fsencode(root), words, kinds, subset, seed, presentation, time_limit, os.fsencode(folder), name)
 
 
 def _problems(run):

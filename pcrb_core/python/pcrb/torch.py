@@ -6,12 +6,12 @@ PyTorch is imported here and nowhere else; without it samples hold numpy arrays,
     loader = torch.utils.data.DataLoader(data, batch_size=4, collate_fn=pcrb.torch.collate, num_workers=2)
     rows = pcrb.torch.score_model(model, data, path='mymodel_eth_local.csv')   # for pcrb report --import
 """
-import csv
 import os
 
 import numpy as np
 
 from . import _pcrb, evaluate, read_pcd
+from .benchmark import selected, write_results
 
 try:
     import torch
@@ -19,9 +19,6 @@ try:
 except ImportError:
     torch, _Base = None, object
 
-KINDS = {'local': ['local'], 'global': ['global'], 'both': ['local', 'global']}
-COLUMNS = ('data_set', 'sequence', 'kind', 'problem_id', 'source', 'target', 'overlap', 'outcome', 'reason', 'error',
-           'initial_misalignment', 'rotation_error_rad', 'translation_error_m')
 KEPT_CLOUDS = 4  # of the files that were read last
 
 
@@ -38,10 +35,7 @@ class RegistrationDataset(_Base):
     """
 
     def __init__(self, root, sequences='all', kind='local', subset=0, seed=1, transform=None):
-        if kind not in KINDS:
-            raise _pcrb.InvalidParameter(f'kind: found `{kind}`, expected local, global or both')
-        words = sequences.split() if isinstance(sequences, str) else list(sequences)
-        self._problems = _pcrb.plan(os.fspath(root), words, KINDS[kind], subset, seed)
+        self._problems = _pcrb.plan(os.fsencode(root), *selected(sequences, kind), subset, seed)
         self._transform = transform
         self._clouds = {}
 
@@ -111,7 +105,7 @@ def score_model(model, dataset, path=None, progress=None):
         if progress is not None:
             progress(rows[-1])
     if path is not None:
-        write_rows(path, rows)
+        write_results(path, rows)
     return rows
 
 
@@ -127,14 +121,6 @@ def _row(model, dataset, index):
         raise
     except Exception as error:  # whatever a model ends in is its outcome
         return dataset.score(index, None, f'{type(error).__name__}: {error}')
-
-
-def write_rows(path, rows):
-    """Writes rows of score() with the columns of results.csv."""
-    with open(path, 'w', encoding='utf-8', newline='') as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def collate(samples):
