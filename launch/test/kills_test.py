@@ -193,8 +193,8 @@ class KillsTest(BridgeTestCase):
     def command_lines():
         for pid in filter(str.isdigit, os.listdir('/proc')):
             try:
-                with open(f'/proc/{pid}/cmdline') as file:
-                    yield int(pid), file.read()
+                with open(f'/proc/{pid}/cmdline', 'rb') as file:
+                    yield int(pid), os.fsdecode(file.read())
             except (FileNotFoundError, ProcessLookupError):
                 pass
 
