@@ -44,11 +44,13 @@ def text_of(name, recipe):
     scores = recipe.get('scores') or {}
     lines = [f'  {name}: {recipe["repository"]} at {recipe["commit"][:8]}']
     lines += wrapped('leave out', recipe['leave_out']) + wrapped('answers', recipe['answers']) + wrapped('cost', recipe['cost'])
-    if not scores:
+    tried = recipe['tried']
+    if not tried:
         return '\n'.join([*lines, '    not tried with the real node: as its sources say']) + '\n'
+    lines.append(f'    tried with the real node on {tried["date"]}, by PCRB {tried["commit"]}')
     for sequence, score in scores.items():
-        lines.append(f'    {sequence}: median {score["median"]:g} (do nothing {score["do_nothing"]:g}), '
-                     f'{score["replied"]} of {score["problems"]} replied')
+        lines.append(f'    {sequence}: median {score["median"]:g} (do nothing {score["do_nothing"]:g}), {score["replied"]} of '
+                     f'{score["problems"]} replied, scans used: {score["scans"]:g}, of {score["time_per_scan"]:g} s each')
     return '\n'.join(lines) + '\n'
 
 
