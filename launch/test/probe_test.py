@@ -49,6 +49,17 @@ class ProbeTest(TestCase):
             for name, value in parameters.items():
                 self.assertEqual(found.get(name), value, text)
 
+    def test_a_node_that_reads_its_map_from_a_file_gets_one_and_no_topic(self):
+        file = self.path('map.pcd')
+        words = '--node-args', f'map={file}', '--map-file', file
+        _, found, text = self.probe('map_file', *words)
+        self.assertEqual(found, {'map_file': file, 'restart': 'target', 'map_settle': 3, 'scan_topic': '/scan_cloud',
+                                 'pose_topic': '/ndt_pose', 'settle': 'first'})
+        self.assertNotIn('another node', text)
+        _, _, text = self.probe('map_file', *words[:2])
+        self.assertIn('another node publishes /map_cloud, which the bridge does: leave it out of the launch file; if it reads the map '
+                      'from a file when it starts, give --map-file', text)
+
     def test_a_launch_file_that_fails_is_an_error_with_what_it_printed(self):
         status, _, text = self.probe('no_such')
         self.assertEqual(status, 1)

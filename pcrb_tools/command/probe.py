@@ -5,6 +5,7 @@ The node gets one map, one initial pose and ten scans of a made-up room (probe_r
 import contextlib
 import dataclasses
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -38,6 +39,7 @@ def run(name, options, values):
         environment = start_master(stack)
         os.environ.update(environment)
         robot = make_robot(values)  # imports ROS, which reads the environment
+        robot.write_map()  # before the node starts, which may read it then
         log = stack.enter_context(tempfile.NamedTemporaryFile('w+', suffix='.log'))
         node = start(stack, ['roslaunch', '--wait', *launch_words(values)], log)
         observation = robot.probe(lambda: node.poll() is None)
@@ -61,8 +63,16 @@ def make_robot(values):
     except ImportError as error:
         raise NotBuilt(f'found no {error.name}: source the setup.bash of a ROS workspace') from error
     return probe_robot.Robot(probe_robot.Hints(map_topic=values['map-topic'], scan_topic=values['scan-topic'],
-                                               pose_topic=values['pose-topic'], map_file=values['map-file'],
+                                               pose_topic=values['pose-topic'], map_file=map_file_of(values),
                                                start_limit=values['start-limit']))
+
+
+def map_file_of(values):
+    """Of a known node, the file that its recipe names: which one a node reads cannot be seen."""
+    if values['map-file'] or not recipes.is_recipe(values['node']):
+        return values['map-file']
+    named = recipes.read(values['node'])['bridge'].get('map_file', '')
+    return re.sub(r'\$\{(\w+):-([^}]*)\}', lambda found: os.environ.get(found[1], found[2]), named)
 
 
 def launch_words(values):

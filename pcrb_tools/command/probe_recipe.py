@@ -53,7 +53,7 @@ def judge_inputs(seen, verdict):
         files = [f'{name}: {value}' for name, value in sorted(seen.parameters.items())
                  if isinstance(value, str) and value.endswith(('.pcd', '.ply', '.bt'))]
         if seen.map_file:
-            verdict.bridge.update({'map_file': seen.map_file, 'restart': 'target'})
+            verdict.bridge.update({'map_file': seen.map_file, 'restart': 'target', 'map_settle': 3})
         else:
             verdict.doubts.append('where the node takes its map from: no topic of a cloud looks like one'
                                   + (f'; parameters that name a file: {"; ".join(files)}: give --map-file' if files else ''))
@@ -84,7 +84,8 @@ def judge_links(seen, verdict):
             + '): leave that out, or set scan_frame to the one and tf_base_scan: none')
     loaders = [topic for topic in [*seen.map_topics, *seen.scan_topics, '/initialpose'] if topic in seen.publications]
     if loaders:
-        verdict.doubts.append(f'another node publishes {", ".join(loaders)}, which the bridge does: leave it out of the launch file')
+        verdict.doubts.append(f'another node publishes {", ".join(loaders)}, which the bridge does: leave it out of the launch file'
+                              + ('; if it reads the map from a file when it starts, give --map-file' if loaders[0] in seen.map_topics else ''))
 
 
 def score_of(answers):

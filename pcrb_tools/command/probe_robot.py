@@ -113,12 +113,14 @@ class Robot:
         self.listening = {}
         self.publishers = {}
 
+    def write_map(self):
+        if self.hints.map_file:
+            write_pcd(self.hints.map_file, room())
+
     def probe(self, is_running):
         """All that was seen; None if the launch file ended or no node takes clouds."""
         wait_for(self.master.is_online, 30)
         rospy.init_node(OWN[1:], anonymous=False, disable_signals=True)
-        if self.hints.map_file:
-            write_pcd(self.hints.map_file, room())
         for topic in '/tf', '/tf_static':
             rospy.Subscriber(topic, tf2_msgs.msg.TFMessage, self.take_tf, topic == '/tf_static', queue_size=100)
         if not wait_for(lambda: self.look() or not is_running(), self.hints.start_limit) or not is_running():
@@ -165,6 +167,8 @@ class Robot:
         scans = [self.hints.scan_topic] if self.hints.scan_topic else [topic for topic in clouds if topic not in maps]
         if len(scans) > 1 and not maps:
             maps, scans = [scans[0]], scans[1:]  # a guess, which the recipe says
+        if self.hints.map_file:  # what the node's own loader publishes is no input of the node
+            maps = [topic for topic in maps if topic not in self.seen.publications]
         self.seen.map_topics, self.seen.scan_topics = maps, scans
         for name in self.node_names():
             for key, value in self.parameters_of(name).items():

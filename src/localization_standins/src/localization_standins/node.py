@@ -20,6 +20,20 @@ def points_of(cloud):
     return np.stack([data[name].astype(float) for name in names], axis=1)
 
 
+def read_pcd(path):
+    """x y z of a PCD file of floats, ascii or binary, n x 3."""
+    with open(path, 'rb') as file:
+        header = {}
+        while 'DATA' not in header:
+            word, _, rest = file.readline().decode().partition(' ')
+            header[word] = rest.split()
+        if header['DATA'] == ['ascii']:
+            return np.loadtxt(file, ndmin=2)[:, :3]
+        layout = np.dtype([(name, f'<{kind.lower()}{size}') for name, kind, size in zip(header['FIELDS'], header['TYPE'], header['SIZE'])])
+        data = np.fromfile(file, layout, int(header['POINTS'][0]))
+        return np.stack([data[name].astype(float) for name in ('x', 'y', 'z')], axis=1)
+
+
 def matrix_of(position, orientation):
     """4 x 4 of the parts of a Pose or a Transform."""
     return from_quaternion([position.x, position.y, position.z],
