@@ -202,12 +202,13 @@ class FairPlayTest(TestCase):
             self.assertEqual('1 problems were skipped on request' in server.output(), not allowed)
 
     def test_a_rival_of_the_server_is_named(self):
-        server = self.server(self.data, sequences='kitchen', connect_limit=6.0, autostart=False)
-        server.wait_for_output('problems')
-        rival = rospy.Publisher(f'{server.namespace}/problem', Problem, queue_size=1)
-        self.addCleanup(rival.unregister)
-        server.call('benchmark_server/start', Trigger)
-        self.assert_fails(server, rf'{rospy.get_name()} publishes {server.namespace}/problem')
+        for topic, kind in ('problem', Problem), ('source', PointCloud2):
+            server = self.server(self.data, run=self.path(topic), sequences='kitchen', connect_limit=4.0, autostart=False)
+            server.wait_for_output('problems')
+            rival = rospy.Publisher(f'{server.namespace}/{topic}', kind, queue_size=1)
+            self.addCleanup(rival.unregister)
+            server.call('benchmark_server/start', Trigger)
+            self.assert_fails(server, rf'{rospy.get_name()} publishes {server.namespace}/{topic}')
 
 
 if __name__ == '__main__':
