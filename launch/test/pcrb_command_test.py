@@ -71,6 +71,18 @@ class PcrbCommandTest(TestCase):
             self.assertNotIn('\033', result.stdout)
         self.assertRegex(pcrb('--version').stdout, r'^pcrb \d+\.\d+\.\d+\n$')
 
+    def test_help_fits_a_terminal_of_80_columns_but_for_examples_to_copy(self):
+        for name in ['', *COMMANDS]:
+            for line in pcrb(*name.split(), '--help', COLUMNS='80').stdout.splitlines():
+                self.assertTrue(len(line) <= 80 or line.startswith(('Example: ', 'usage: ')), f'{name}: {line}')
+
+    def test_what_the_demo_costs_is_said_once(self):
+        minutes, disk = re.search(r'report: (.*), (\d+ MB) of disk', pcrb('demo', '--help').stdout).groups()
+        readme = os.path.join(rospkg.RosPack().get_path('pcrb_tools'), '..', 'README.md')
+        if os.path.exists(readme):  # an install space has none
+            with open(readme, encoding='utf-8') as file:
+                self.assertTrue(re.search(f'demo` \\| {minutes} .*{disk}', file.read()), f'README.md: {minutes}, {disk}')
+
     def test_all_mistakes_are_named_with_what_was_meant_and_nothing_starts(self):
         run = self.path('run')
         self.assert_refused(['run', '--root', self.data.root, '--run', run, 'subst:=5', '--methd', 'icp', '--kind=locl', '--jobs', '0'],

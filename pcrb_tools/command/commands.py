@@ -84,7 +84,7 @@ COMMANDS = [
             'pcrb replay --run ~/runs/gicp --order worst --rviz'),
     Command('bag', 'look', 'a sequence or its problems as a bag', scoring.Bag(),
             'pcrb bag --root ~/pcrb --sequences eth/apartment --output apartment.bag'),
-    Command('demo', 'help', 'from simulated logs to a report, on this machine', Module(demo), 'pcrb demo --output ~/pcrb_demo'),
+    Command('demo', 'help', f'from simulated logs to a report: {demo.COSTS}', Module(demo), 'pcrb demo --output ~/pcrb_demo'),
     Command('doctor', 'help', 'what this machine has and lacks', Module(doctor), 'pcrb doctor --root ~/pcrb'),
     Command('recipes', 'help', 'commands for common tasks', Module(texts.Recipes), 'pcrb recipes'),
     Command('completion', 'help', 'what a shell needs to complete pcrb', Module(texts.Completion),

@@ -6,6 +6,7 @@ import os
 import shutil
 import socket
 
+import demo
 import places
 import terminal
 from benchmarking import has_master
@@ -43,14 +44,14 @@ def machine(values):
     yield 'ok', 'system', f'{system}, {os.cpu_count()} processors'
     memory = memory_bytes()
     if memory:
-        state = 'ok' if memory >= 2 * GIGABYTE else 'note'
-        yield state, 'memory', f'{memory / GIGABYTE:.1f} GB (the demo takes 2 GB)'
+        state = 'ok' if memory >= demo.MEMORY else 'note'
+        yield state, 'memory', f'{memory / GIGABYTE:.1f} GB (the demo takes {demo.MEMORY / GIGABYTE:g} GB)'
     folder = os.path.abspath(os.path.expanduser(values['output']))
     while not os.path.isdir(folder):
         folder = os.path.dirname(folder)
     free = shutil.disk_usage(folder).free
-    is_enough = free >= 2 * GIGABYTE
-    advice = '' if is_enough else ': the demo takes 2 GB, free some'
+    is_enough = free >= 2 * demo.DISK
+    advice = '' if is_enough else f': the demo takes {demo.DISK / GIGABYTE:g} GB, free some'
     yield ('ok' if is_enough else 'fix'), 'disk', f'{free / GIGABYTE:.1f} GB free at {folder}{advice}'
 
 

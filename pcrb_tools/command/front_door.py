@@ -101,8 +101,9 @@ def overview():
     lines = ['usage: pcrb COMMAND [OPTIONS]', '', 'Benchmarks point cloud registration and localization.']
     for group, title in GROUPS.items():
         lines += ['', terminal.paint(title, 'bold')]
-        lines += [f'  {command.name.ljust(18)} {command.summary}' for command in COMMANDS if command.group == group]
-    lines += ['', 'pcrb COMMAND --help lists the options of a command, pcrb recipes shows common tasks.']
+        for command in COMMANDS:
+            lines += describe(command.name, command.summary, 17) if command.group == group else []
+    lines += ['', 'pcrb COMMAND --help lists the options of a command,', 'pcrb recipes shows common tasks.']
     return '\n'.join(lines) + '\n'
 
 
@@ -111,7 +112,8 @@ def help_of(command, options):
     named = sorted((option for option in options if not option.positional), key=lambda option: not option.required)
     required = [option.usage() for option in named if option.required]
     usage = ' '.join([f'pcrb {command.name}', *(option.placeholder() for option in places_first), *required, '[OPTIONS]'])
-    lines = [f'usage: {usage}', '', command.summary[0].upper() + command.summary[1:] + '.', '']
+    summary = textwrap.wrap(command.summary[0].upper() + command.summary[1:] + '.', columns())
+    lines = [f'usage: {usage}', '', *summary, '']
     width = min(34, max([len(option.usage()) for option in [*places_first, *named]] or [0]))
     for option in [*places_first, *named]:
         lines += describe(option.usage(), option.explanation(), width)
@@ -119,11 +121,10 @@ def help_of(command, options):
 
 
 def describe(usage, text, width):
-    columns = max(60, min(110, terminal_columns()))
-    wrapped = textwrap.wrap(text, columns - width - 4) or ['']
+    wrapped = textwrap.wrap(text, columns() - width - 4) or ['']
     first = [f'  {usage.ljust(width)}  {wrapped[0]}'] if len(usage) <= width else [f'  {usage}', ' ' * (width + 4) + wrapped[0]]
     return first + [' ' * (width + 4) + line for line in wrapped[1:]]
 
 
-def terminal_columns():
-    return shutil.get_terminal_size((100, 24)).columns
+def columns():
+    return max(60, min(110, shutil.get_terminal_size((100, 24)).columns))

@@ -15,7 +15,7 @@ WORDS = {option.name: option for option in (
     Option('client', 'command that starts a client of your own, in place of a method of this suite', metavar='COMMAND'),
     Option('presentation', 'how problems are shown: two clouds, or a map and a scan in its sensor\'s frame',
            choices=('registration', 'localization')),
-    Option('subset', 'number of problems to draw; 0 = all', 'int', low=0, default=0),
+    Option('subset', 'number of problems to draw', 'int', low=0, default=0, shown_default='0 = all'),
     Option('seed', 'seed of all that is drawn at random', 'int', low=0, high=2**31 - 1, default=1),
     Option('time-limit', 'seconds that one problem may take', 'number', low=1e-3),
     Option('audit', 'give each target a secret motion, so that a client\'s memory is of no use', 'flag'),
