@@ -1,7 +1,8 @@
 """The report's charts, each drawn once from the numbers of report.json: the page and the figures take the same drawing."""
 import math
 
-from drawing import BOTTOM, LEFT, RIGHT, TOP, WIDTH, Chart, Drawing, Ink, Linear, Logarithmic, error, interval, short
+from drawing import (BOTTOM, LEFT, RIGHT, TOP, WIDTH, Chart, Drawing, Ink, Linear, Logarithmic, error, interval_text, short,
+                     shortened)
 
 # Colours that people tell apart who do not see all of them (after Okabe and Ito), each with a contrast of 3 : 1 at least against a
 # white and a dark ground; shapes and dashes for those who see none.
@@ -9,7 +10,9 @@ COLORS = ['#0072B2', '#D55E00', '#009B70', '#B8659A', '#A87900', '#2E8FC9', '#8C
 SHAPES = ['circle', 'square', 'triangle', 'diamond', 'wedge', 'cross', 'hexagon', 'bow']
 DASHES = ['', '9 3', '3 2.5', '9 3 2 3', '6 2', '2 4', '12 4', '5 5']
 NEUTRAL = '#74839a'
+LONGEST_LABEL = 16  # letters of a method's name within a chart
 SMALLEST = 1e-4  # errors below it are drawn there on a logarithmic axis
+FEWEST_OF_A_LINE = 5  # problems in each bin that a line joins: between the medians of fewer it would mean nothing
 
 
 BASELINE = Ink(NEUTRAL, 'bow', '6 4')
@@ -82,9 +85,8 @@ def median_dots(scores, inks, floors, width=WIDTH):
 
 
 def draw_median(chart, row, ink, x, y):
-    title = (f'{row["method"]}, {row["selection"]}: median {error(row["median"])}, '
-             + (f'95 % interval {interval(row["low"], row["high"])}' if row['low'] is not None else 'too few pairs for an interval')
-             + f', {row["problems"]} problems in {row["pairs"]} pairs')
+    title = (f'{row["method"]}, {row["selection"]}: median {error(row["median"])}, {interval_text(row)}, {row["problems"]} problems in '
+             f'{row["pairs"]} pairs')
     if row['low'] is not None:
         chart.line((x(row['low']), y), (x(row['high']), y), 'interval', ink.color, title, row['method'])
     chart.symbol((x(row['median']), y), 5, 'dot', ink, title, row['method'])
@@ -104,8 +106,16 @@ def solved_curves(section, inks):
     return chart
 
 
+def swatch(ink):
+    """A method's entry in a legend: its line and its mark."""
+    drawing = Drawing(14, width=30)
+    drawing.polyline([(1, 7), (29, 7)], 'curve', ink.color, dash=ink.dash)
+    drawing.symbol((15, 7), 4.8, 'dot', ink)
+    return drawing
+
+
 def binned(panel, inks, x_name):
-    """Medians of the error over a property, the quartiles as a band."""
+    """Medians of the error over a property, the quartiles as a band; scans follow one another, so they are always joined."""
     bins = [b for method in panel['methods'] for b in method['bins']]
     top = max(max(b['q75'] for b in bins), 10 * SMALLEST)
     low = max(SMALLEST, min(b['q25'] for b in bins))
@@ -114,8 +124,9 @@ def binned(panel, inks, x_name):
     for method in panel['methods']:
         name, ink = method['method'], inks[method['method']]
         middle = [((b['low'] + b['high']) / 2, b) for b in method['bins']]
-        chart.band([(x, b['q25']) for x, b in middle], [(x, b['q75']) for x, b in middle], ink.color, name)
-        chart.curve([(x, b['median']) for x, b in middle], ink, method=name)
+        if x_name == 'scan' or all(b['count'] >= FEWEST_OF_A_LINE for b in method['bins']):
+            chart.band([(x, b['q25']) for x, b in middle], [(x, b['q75']) for x, b in middle], ink.color, name)
+            chart.curve([(x, b['median']) for x, b in middle], ink, method=name)
         for x, b in middle:
             chart.dot(x, b['median'], ink, f'{name}: median {error(b["median"])}, quartiles {error(b["q25"])} '
                       f'to {error(b["q75"])}, {b["count"]} problems with {x_name} {error(b["low"])} to {error(b["high"])}', name)
@@ -169,14 +180,14 @@ class Rows(Chart):
 
     def __init__(self, x, x_name, rows, label):
         self.rows = rows
-        left = min(220, max([LEFT, *(12 + 6.6 * len(row['label']) for row in rows)]))  # names are never cut
+        left = min(220, max([LEFT, *(12 + 6.6 * len(row['label']) for row in rows)]))
         super().__init__(x, Linear(0, len(rows)), x_name, '', TOP + BOTTOM + 19 * len(rows), label, left)
 
     def draw_axes(self, x_name, y_name):
         self.y.ticks = lambda count=0: []
         super().draw_axes(x_name, y_name)
         for i, row in enumerate(self.rows):
-            self.text(self.left - 6, self.middle(i) + 4, row['label'], 'tick', 'end')
+            self.text(self.left - 6, self.middle(i) + 4, shortened(row['label'], 30), 'tick', 'end')
 
     def middle(self, i):
         return TOP + 19 * (i + 0.5)
@@ -255,7 +266,7 @@ def error_over_time(points, inks):
         chart.dot(p['time'], p['median'], ink, title, name, 5)
         x, y = chart.at(p['time'], p['median'])
         is_right = x > chart.width * 0.75
-        chart.text(x + (-8 if is_right else 8), y - 7, name, 'tick', 'end' if is_right else 'start', name)
+        chart.text(x + (-8 if is_right else 8), y - 7, shortened(name, LONGEST_LABEL), 'tick', 'end' if is_right else 'start', name)
     return chart
 
 
@@ -284,5 +295,5 @@ def ranking(numbers, inks):
         end, side = (left - 6, 'end') if is_left else (WIDTH - right + 6, 'start')
         title = f'{m["method"]}: mean rank {m["rank"]:.2f} over {numbers["pairs"]} pairs of clouds'
         chart.polyline([(x(m['rank']), axis_y), (x(m['rank']), y), (end, y)], 'stem', inks[m['method']].color, title, m['method'])
-        chart.text(end + (-4 if is_left else 4), y + 4, f'{m["method"]}  {m["rank"]:.2f}', 'label', side, m['method'])
+        chart.text(end + (-4 if is_left else 4), y + 4, f'{shortened(m["method"], LONGEST_LABEL)}  {m["rank"]:.2f}', 'label', side, m['method'])
     return chart

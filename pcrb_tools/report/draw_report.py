@@ -7,6 +7,7 @@ import os
 import pathlib
 import sys
 
+import charts
 import jinja2
 import page
 import tracking
@@ -28,7 +29,7 @@ def draw_page(report, figures):
     static = {name: page.trusted((HERE / f'page.{name}').read_text(encoding='utf-8')) for name in ('css', 'js')}
     sections = [page.view(section, figures.get(section['kind'], [])) for section in report['sections']]
     return environment.get_template('page.html.j2').render(
-        title=report['title'], version=report['version'], sections=sections,
+        title=report['title'], version=report['version'], sections=sections, fewest_of_a_line=charts.FEWEST_OF_A_LINE,
         trackers=tracking.view(report['trackers'], figures.get('tracking', [])), **static)
 
 

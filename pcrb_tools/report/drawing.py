@@ -39,6 +39,17 @@ def short(value):
     return f'{value:.6g}'
 
 
+def shortened(name, letters):
+    """A name where a chart has no room for more: both its ends. Legends, titles and tables have all of it."""
+    tail = (letters - 1) // 2
+    return name if len(name) <= letters else f'{name[:letters - 1 - tail]}…{name[-tail:]}'
+
+
+def interval_text(row):
+    """The interval of a median as a title has it."""
+    return f'95 % interval {interval(row["low"], row["high"])}' if row['low'] is not None else 'too few pairs for an interval'
+
+
 def coordinate(value):
     return f'{value:.2f}'.rstrip('0').rstrip('.')
 
@@ -185,10 +196,13 @@ class Chart(Drawing):
             y = self.at(self.x.low, tick)[1]
             self.line((self.left, y), (self.width - RIGHT, y), 'grid')
             self.text(self.left - 6, y + 4, short(tick), 'tick', 'end')
+        free = -math.inf  # from there on a label has room
         for tick in self.x.ticks():
-            x = self.at(tick, self.y.low)[0]
+            x, half = self.at(tick, self.y.low)[0], 3.7 * len(short(tick))
             self.line((x, TOP), (x, bottom), 'grid')
-            self.text(x, bottom + 15, short(tick), 'tick')
+            if x - half >= free:
+                self.text(x, bottom + 15, short(tick), 'tick')
+                free = x + half + 4
         self.line((self.left, bottom), (self.width - RIGHT, bottom), 'axis')
         self.text((self.left + self.width - RIGHT) / 2, self.height - 6, x_name, 'name')
         if y_name:

@@ -14,7 +14,7 @@ import calibration  # noqa: E402
 import charts  # noqa: E402
 import series  # noqa: E402
 import tracking  # noqa: E402
-from drawing import WIDTH, Drawing  # noqa: E402
+from drawing import WIDTH, Drawing, shortened  # noqa: E402
 
 POINTS = 7.16 / (2 * WIDTH) * 72  # per unit: two charts are as wide as both columns of a page, 7.16 inches
 INK, SOFT, RULE = '#1d2430', '#4a5360', '#dde2e9'
@@ -69,16 +69,16 @@ def legend(inks, width):
     """Rows of a swatch and a name."""
     x, y, places = 8, 16, []
     for method, ink in inks.items():
-        size = 40 + 9 * len(method)
+        method = shortened(method, int((width - 64) / 9))
+        size = 48 + 9 * len(method)
         if x > 8 and x + size > width:
             x, y = 8, y + 22
         places.append((x, y, method, ink))
         x += size
     drawing = Drawing(y + 12, width=width)
     for x, y, method, ink in places:
-        drawing.polyline([(x, y - 5), (x + 22, y - 5)], 'curve', ink.color, dash=ink.dash)
-        drawing.symbol((x + 11, y - 5), 4.5, 'dot', ink)
-        drawing.text(x + 28, y, method, 'label', 'start')
+        drawing.include(charts.swatch(ink), x, y - 12)
+        drawing.text(x + 36, y, method, 'label', 'start')
     return drawing
 
 
@@ -113,6 +113,7 @@ def figures_of(section):
     """(name, drawing, caption) of each figure of a section."""
     kind, numbers, tables, inks = section['kind'], section['charts'], section['tables'], charts.inks_of(section)
     methods = {name: ink for name, ink in inks.items() if name != section['baseline']}
+    are_cut = any(shortened(name, charts.LONGEST_LABEL) != name for name in methods)
     scores = charts.rows_of(tables['scores'])
     floors = charts.floors_of(tables)
     yield ('medians', sheet([('', charts.median_dots(scores, inks, floors, 2 * WIDTH))], inks),
@@ -126,9 +127,10 @@ def figures_of(section):
             yield (name, sheet([(p['selection'], charts.binned(p, inks, x_name)) for p in numbers[name]], methods),
                    f'Error over the {x_name}, {kind} problems: '
                    + ('medians and quartiles; a problem that ended before keeps its last answer.' if name == 'over_scans' else
-                      'medians of bins that hold equally many problems, and their quartiles.'))
-    for method, ink in methods.items():
-        panels = [(p['selection'], charts.histogram(m, ink, p['selection'])) for p in numbers['histograms'] for m in p['methods']
+                      'medians of bins that hold equally many problems; joined, with their quartiles, where each bin holds at least '
+                      f'{charts.FEWEST_OF_A_LINE}.'))
+    for method in (described['method'] for described in section['methods']):
+        panels = [(p['selection'], charts.histogram(m, inks[method], p['selection'])) for p in numbers['histograms'] for m in p['methods']
                   if m['method'] == method]
         yield ('histograms_' + in_file_name(method), sheet(panels),
                f'Errors of {method} on the {kind} problems. Dashed: the median; curve: the normal distribution of the same mean and '
@@ -154,11 +156,11 @@ def figures_of(section):
     if latency:
         yield ('latencies', sheet([('', latency)]), f'Time from a source to its reply, {kind} problems: median, quantiles 0.05 to 0.95.')
     if numbers['times']:
-        yield ('times', sheet([('', charts.error_over_time(numbers['times'], inks))]),
+        yield ('times', sheet([('', charts.error_over_time(numbers['times'], inks))], methods if are_cut else None),
                f'Median error against median time to a reply, {kind} problems. Dashed: the front of the methods that no other one beats '
                'in both.')
     if numbers['ranking']:
-        yield ('ranking', sheet([('', charts.ranking(numbers['ranking'], inks))]),
+        yield ('ranking', sheet([('', charts.ranking(numbers['ranking'], inks))], methods if are_cut else None),
                f'Mean ranks over {numbers["ranking"]["pairs"]} pairs of clouds, {kind} problems. Bars join methods between which '
                "Wilcoxon's signed-rank test shows no difference after Holm's correction.")
 

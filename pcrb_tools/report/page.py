@@ -34,7 +34,8 @@ def cell(value, form):
     return error(value) if form in ('error', 'seconds') else str(value)
 
 
-FILTERS = {'error': error, 'cell': cell, 'interval': lambda row: interval(row['low'], row['high'])}
+FILTERS = {'error': error, 'cell': cell, 'interval': lambda row: interval(row['low'], row['high']),
+           'swatch': lambda ink: svg(charts.swatch(ink))}
 
 
 def milliseconds(seconds):
@@ -181,7 +182,7 @@ def view(section, figures):
     floors = charts.floors_of(present)
     section['is_only_kind'] = all(m['planned'] is None or int(m['planned']) >= m['problems'] for m in section['methods'])
     made = {
-        'colors': {name: ink.color for name, ink in inks.items()}, 'floors': floors, 'parts': parts_of(section, figures),
+        'inks': inks, 'floors': floors, 'parts': parts_of(section, figures),
         'tables': tables, 'figures': figures,
         'cards': list(cards_of(section, scores)),
         'bars': [svg(charts.median_dots(scores, inks, floors, width), kind) for width, kind in ((2 * WIDTH, 'wide'), (WIDTH, 'narrow'))],

@@ -1,6 +1,6 @@
 """Charts of sweeps: the median error over the values of a parameter."""
 import charts
-from drawing import Chart, Linear, Logarithmic, error, interval
+from drawing import Chart, Linear, Logarithmic, error, interval_text
 
 
 def sweeps(table):
@@ -27,6 +27,5 @@ def curve(parameter, rows):
         chart.band([(row['value'], row['low']) for row in known], [(row['value'], row['high']) for row in known], ink.color)
     chart.curve([(row['value'], row['median']) for row in rows], ink)
     for row in rows:
-        text = f'95 % interval {interval(row["low"], row["high"])}' if row['low'] is not None else 'too few pairs for an interval'
-        chart.dot(row['value'], row['median'], ink, f'{parameter} {row["value"]:g}: median {error(row["median"])}, {text}')
+        chart.dot(row['value'], row['median'], ink, f'{parameter} {row["value"]:g}: median {error(row["median"])}, {interval_text(row)}')
     return chart
