@@ -5,10 +5,22 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include <array>
+#include <vector>
+
+using Points = std::vector<std::array<float, 3>>;  // x y z, m
+
+Points pointsOf(const sensor_msgs::PointCloud2& cloud) {
+  Points points;
+  sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z");
+  for (; x != x.end(); ++x, ++y, ++z) points.push_back({*x, *y, *z});
+  return points;
+}
 
 // Your algorithm goes here: the pose T with p_target = T * p_source.
-geometry_msgs::Pose align(const sensor_msgs::PointCloud2& /*target*/,
-                          const sensor_msgs::PointCloud2& /*source*/,
+geometry_msgs::Pose align(const Points& /*target*/, const Points& /*source*/,
                           const geometry_msgs::Pose& guess) {
   return guess;
 }
@@ -50,7 +62,8 @@ int main(int argc, char** argv) {
     pcrb_msgs::SubmitPose submit;
     submit.request.problem_id = problem->problem_id;
     submit.request.pose.header = problem->header;
-    submit.request.pose.pose = align(*target, *source, problem->initial_guess);
+    submit.request.pose.pose =
+        align(pointsOf(*target), pointsOf(*source), problem->initial_guess);
     ros::service::call("/pcrb/submit_pose", submit);
   }
 }

@@ -1,8 +1,18 @@
 #!/usr/bin/env python3
+import numpy as np
 import rospy
 from pcrb_msgs.msg import Problem, Summary
 from pcrb_msgs.srv import Ready, SubmitPose, SubmitPoseRequest
 from sensor_msgs.msg import PointCloud2
+
+
+def points_of(cloud):
+    """The (n, 3) float32 coordinates, m, of a sensor_msgs/PointCloud2."""
+    offsets = {field.name: field.offset for field in cloud.fields}
+    layout = np.dtype({'names': ['x', 'y', 'z'], 'formats': ['<f4'] * 3,
+                       'offsets': [offsets['x'], offsets['y'], offsets['z']], 'itemsize': cloud.point_step})
+    points = np.frombuffer(cloud.data, layout)
+    return np.stack([points['x'], points['y'], points['z']], axis=1)
 
 
 def align(target, source, guess):
@@ -37,5 +47,5 @@ while wait_until(lambda: latest.get('problem') is not problem):
         continue
     reply = SubmitPoseRequest(problem_id=problem.problem_id)
     reply.pose.header = problem.header
-    reply.pose.pose = align(latest['target'], latest['source'], problem.initial_guess)
+    reply.pose.pose = align(points_of(latest['target']), points_of(latest['source']), problem.initial_guess)
     submit(reply)
