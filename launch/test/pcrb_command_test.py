@@ -93,6 +93,12 @@ class PcrbCommandTest(TestCase):
         self.assert_refused(['run', '--run', run, '--root', self.path('nowhere')], 'expected a folder that is there')
         self.assert_refused(['localize', '--root', self.data.root, '--run', run, '--node', 'hdl_localisation'],
                             'expected a launch file, a package and its launch file, or hdl_localization, .*did you mean hdl_localization')
+        for words in ['check', '--strict'], ['paper', '--run', run], ['ground-truth', '--output', run]:
+            self.assert_refused([*words, '--root', self.data.root, '--sequences', 'kitchn'], r'did you mean kitchen\?')
+        self.assert_refused(['run', '--root', self.data.root, '--run', run, '--method', 'mine', '--plugin', self.path('libmine.so')],
+                            '--plugin: found .*libmine.so`, expected a file that is there')
+        self.assert_refused(['demo', '--output', os.path.join(self.data.root, 'rooms', 'kitchen_local.txt')], '--output: found a file')
+        self.assert_refused(['--hlep'], r'did you mean --help\?')
         self.assert_refused(['rnu'], r'did you mean run\?')
         self.assert_refused(['convert', 'kaitsu'], r'did you mean kaist\?')
         self.assert_refused(['compare', self.data.root], 'OLD: .*results.sqlite|NEW: must be given')

@@ -108,7 +108,10 @@ def method_mistakes(values):
     if values.get('client'):
         return [f'--client and --{other}: found both, expected one of them' for other in ('plugin', 'sweep') if values.get(other)]
     strange = [name for name in names if name not in known]
-    if not values.get('plugin'):
+    plugin = values.get('plugin') or ''
+    if os.sep in plugin and not os.path.isfile(plugin):
+        return [f'--plugin: found `{plugin}`, expected a file that is there']
+    if not plugin:
         return [f'--method: found `{name}`, expected {one_of(known)}, or --plugin or --client with your own{did_you_mean(name, known)}'
                 for name in strange]
     return ['--parameters: must be given with a method of your own: ' + WORDS['parameters'].help
@@ -138,7 +141,8 @@ def assignment(option, values):
     if option.kind == 'flag':
         value = 'true' if value else 'false'
     if option.kind in ('folder', 'file', 'path') and value:
-        value = os.path.abspath(value) if os.sep in value or option.name != 'plugin' else value
+        is_path = option.name != 'plugin' or os.sep in value or os.path.exists(value)  # else the system looks for the library
+        value = os.path.abspath(value) if is_path else value
     return f'{option.source}:={value}'
 
 

@@ -5,6 +5,7 @@ from typing import Any
 import comparison
 import demo
 import doctor
+import places
 import probe
 import scoring
 import texts
@@ -57,7 +58,7 @@ COMMANDS = [
             'pcrb map --root ~/pcrb --sequences planetary/box_met --output ~/pcrb/planetary/p2at_met/box_map.pcd'),
     Command('import-protocol', 'data', 'problems of the original ETH protocol, with its initial poses', Tool('import_protocol'),
             'pcrb import-protocol apartment_protocol.csv ~/pcrb/eth/apartment --output ~/protocol/eth/apartment_global.txt'),
-    Command('check', 'data', 'check data sets: clouds, problems, overlaps', Tool('check_dataset', changes=ROOTED),
+    Command('check', 'data', 'check data sets: clouds, problems, overlaps', Tool('check_dataset', changes=ROOTED, known=places.all_sequences),
             'pcrb check --root ~/pcrb --sequences eth kaist'),
     Command('run', 'run', 'benchmark a registration method, or a client of your own', Benchmark('benchmark.launch', {}, [SWEEP]),
             'pcrb run --root ~/pcrb --run ~/runs/gicp --method gicp --subset 100'),
@@ -67,7 +68,7 @@ COMMANDS = [
     Command('probe', 'run', 'find out how a localization node is benchmarked', Module(probe),
             'pcrb probe --node "my_package my_node.launch" --output my_node.yaml'),
     Command('paper', 'run', 'the experiments of the paper, seven methods, and a method of your own beside them', Tool('run_paper', changes={
-        'sequences': {'default': None, 'shown_default': 'all'}}, more=method_mistakes),
+        'sequences': {'default': None, 'shown_default': 'all'}}, more=method_mistakes, known=places.problem_sequences),
             'pcrb paper --root ~/pcrb --run ~/runs/paper --subset 100'),
     Command('score', 'results', 'score poses of problems or of a trajectory, without ROS', scoring.Score(),
             'pcrb score --root ~/pcrb --sequences eth/apartment --kind local --poses mine.txt --run ~/runs/mine'),
@@ -78,7 +79,7 @@ COMMANDS = [
     Command('merge', 'results', 'put the shards of a run together', Tool('merge_runs'),
             'pcrb merge ~/runs/gicp/shards/* --output ~/runs/gicp'),
     Command('ground-truth', 'results', 'how exact the ground truth is', Tool('evaluate_ground_truth', changes={
-        'import': {'name': 'misalignments'}}),
+        'import': {'name': 'misalignments'}}, known=places.problem_sequences),
             'pcrb ground-truth --root ~/pcrb --sequences eth/apartment --output ground_truth'),
     Command('replay', 'look', 'look at a sequence, its problems, or a finished run', Replay(),
             'pcrb replay --run ~/runs/gicp --order worst --rviz'),

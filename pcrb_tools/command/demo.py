@@ -17,6 +17,8 @@ DISK, MEMORY = 0.25e9, 2e9  # bytes
 
 def check(values):
     output = os.path.expanduser(values['output'])
+    if os.path.isfile(output):
+        return [f'--output: found a file, {output}, expected a folder that is new or of an earlier demo']
     if os.path.isdir(output) and set(os.listdir(output)) - {'CATKIN_IGNORE', 'logs', 'data', 'run', 'paper', 'prepare.log'}:
         return [f'--output: found files of others in {output}, expected a folder that is new or of an earlier demo']
     return []

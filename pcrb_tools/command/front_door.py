@@ -77,7 +77,7 @@ def find(words):
     is_half = words[0] in halves and re.fullmatch('[a-z]+', words[1]) and not os.path.exists(words[1])
     if words[0] in by_name and not is_half:
         return by_name[words[0]], words[1:]
-    known = {name.partition(' ')[2] for name in by_name if name.startswith(words[0] + ' ')} or set(by_name) | halves
+    known = {name.partition(' ')[2] for name in by_name if name.startswith(words[0] + ' ')} or {*by_name, *halves, 'help', '--help', '--version'}
     wrong = words[1] if words[0] in halves else words[0]
     raise UsageError([f'unknown command `{" ".join(words[:2] if words[0] in halves else words[:1])}`'
                       + (did_you_mean(wrong, known) or ' (pcrb --help lists them)')])

@@ -83,6 +83,16 @@ def cloud_folders(root):
     return [tuple(folder.split(os.sep)[-2:]) for folder in folders]
 
 
+def problem_sequences(values):
+    """(data set, sequence) of the problem files below --root."""
+    return [(data_set, sequence) for data_set, sequence, _, _ in problem_files(values['root'])]
+
+
+def all_sequences(values):
+    """Those that have problem files or clouds."""
+    return [*problem_sequences(values), *cloud_folders(values['root'])]
+
+
 def select(names, known, place):
     """Those of (data set, sequence) that some words name, by the rule of all programs: all, a sequence, a data set, or
     data_set/sequence.

@@ -134,10 +134,11 @@ class Tool:
              runs the program for each of them.
     changes  what is different from the program, by option.
     more     further mistakes of values.
+    known    the sequences below --root that --sequences may name, where they are there already.
     """
 
-    def __init__(self, name, folders=False, changes=None, more=lambda values: []):
-        self.name, self.folders, self.changes, self.more = name, folders, changes or {}, more
+    def __init__(self, name, folders=False, changes=None, more=lambda values: [], known=None):
+        self.name, self.folders, self.changes, self.more, self.known = name, folders, changes or {}, more, known
         self.chosen = []  # the sequences, once check() has found them
 
     def options(self):
@@ -155,7 +156,9 @@ class Tool:
 
     def check(self, values):
         if not self.folders:
-            return self.more(values)
+            is_asked = self.known and values['sequences'] and values['root']
+            _, mistakes = places.select(values['sequences'], self.known(values), values['root']) if is_asked else ([], [])
+            return mistakes + self.more(values)
         self.chosen, mistakes = places.select(values['sequences'], places.cloud_folders(values['root']), values['root'])
         if values.get('output') and len(self.chosen) > 1:
             mistakes.append(f'--output: found {len(self.chosen)} sequences, expected one with --output')
