@@ -73,7 +73,7 @@ class WalksTest(TestCase):
 
     def shell(self, script, **variables):
         """A script of bash below the test's folder, that stops at the first failure; no variable of this test's ROS reaches it."""
-        fresh = {'HOME': self.path('home'), 'PATH': '/usr/local/bin:/usr/bin:/bin', 'LANG': 'C.UTF-8', 'ROS_IP': '127.0.0.1', **variables}
+        fresh = {'HOME': self.path('home'), 'PATH': '/usr/bin:/bin', 'LANG': 'C.UTF-8', 'ROS_IP': '127.0.0.1', **variables}
         words = [f'{name}={value}' for name, value in fresh.items()]
         text = f'set -e\ncd {shlex.quote(self.folder)}\n. {shlex.quote(SETUP)}\n{script}'
         return self.start(Child(['env', '-i', *words, 'bash', '-c', text]))
