@@ -62,8 +62,7 @@ int main(int argc, char** argv) {
     pcrb_msgs::SubmitPose submit;
     submit.request.problem_id = problem->problem_id;
     submit.request.pose.header = problem->header;
-    submit.request.pose.pose =
-        align(pointsOf(*target), pointsOf(*source), problem->initial_guess);
+    submit.request.pose.pose = align(pointsOf(*target), pointsOf(*source), problem->initial_guess);
     ros::service::call("/pcrb/submit_pose", submit);
   }
 }
