@@ -1,23 +1,25 @@
 // small_gicp's GICP and VGICP as methods of the benchmark. The library prints warnings for clouds
 // that are too small; here they are errors before it sees them.
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+// The library's headers take some of the standard library for included.
 #include <small_gicp/ann/gaussian_voxelmap.hpp>
 #include <small_gicp/ann/kdtree.hpp>
 #include <small_gicp/factors/gicp_factor.hpp>
 #include <small_gicp/points/point_cloud.hpp>
 #include <small_gicp/registration/reduction.hpp>
-#ifdef _OPENMP
-#include <small_gicp/registration/reduction_omp.hpp>
-#endif
-#include <cmath>
-#include <memory>
 #include <small_gicp/registration/registration.hpp>
 #include <small_gicp/util/downsampling.hpp>
 #include <small_gicp/util/normal_estimation.hpp>
-#include <string>
+#ifdef _OPENMP
+#include <omp.h>
+
+#include <small_gicp/registration/reduction_omp.hpp>
+#endif
 
 #include "pcrb_core/registration/registry.hpp"
 
@@ -72,7 +74,7 @@ small_gicp::RegistrationResult run(Reduction reduction, const Settings& settings
 }
 
 template <class Target, class Search>
-pcrb::RegistrationResult align(const Settings& settings, double max_distance, const Target& target,
+pcrb::RegistrationResult solve(const Settings& settings, double max_distance, const Target& target,
                                const Search& search, const pcrb::PointCloud& source,
                                const pcrb::Transform& guess) {
   const Cloud moved = prepare(source, settings, "source");
@@ -109,7 +111,7 @@ class SmallGicp : public pcrb::Registration {
 
   pcrb::RegistrationResult alignSource(const pcrb::PointCloud& source,
                                        const pcrb::Transform& guess) override {
-    return align(settings_, max_distance_, *target_, *tree_, source, guess);
+    return solve(settings_, max_distance_, *target_, *tree_, source, guess);
   }
 
  private:
@@ -132,7 +134,7 @@ class SmallVgicp : public pcrb::Registration {
 
   pcrb::RegistrationResult alignSource(const pcrb::PointCloud& source,
                                        const pcrb::Transform& guess) override {
-    return align(settings_, 2.0 * map_leaf_, *map_, *map_, source, guess);
+    return solve(settings_, 2.0 * map_leaf_, *map_, *map_, source, guess);
   }
 
  private:
