@@ -110,6 +110,8 @@ class HomesTest(TestCase):
             self.assert_fails(child, NO_UTF_8)
             self.assertEqual(child.output().count('found'), 1, child.output())
             self.assertNotIn('Traceback', child.output())
+        node = Child([executable('pcrb_server', 'benchmark_server'), f'_run:={run}', f'_root:={self.data.root}'])
+        self.assert_fails(self.start(node), 'found `_run:=.*`, expected UTF-8: a ROS master takes no other bytes')
 
 
 if __name__ == '__main__':

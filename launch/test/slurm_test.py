@@ -56,7 +56,7 @@ class SlurmTest(TestCase):
         for pid in filter(str.isdigit, os.listdir('/proc')):
             try:
                 with open(f'/proc/{pid}/cmdline', 'rb') as file:
-                    words = file.read().decode().split('\0')
+                    words = os.fsdecode(file.read()).split('\0')
             except OSError:
                 continue
             is_batch = words[0].endswith('/evaluate_batch') and self.run in words

@@ -15,6 +15,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/process_limits.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_server/topics.hpp"
 #include "ros/node_calls.hpp"
 
@@ -105,6 +106,17 @@ void connect() {
   }
 }
 
+/// What a command line sets goes to the ROS master, as XML.
+void requireUtf8(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string text = printableText(argv[i]);
+    if (text != argv[i]) {
+      throw CLI::ValidationError("found `" + text +
+                                 "`, expected UTF-8: a ROS master takes no other bytes");
+    }
+  }
+}
+
 std::string footerOf(const NodeHelp& help) {
   if (help.parameters.empty()) return help.details;
   return "Private parameters (default):\n" + formatParameters(help.parameters) + "\n" +
@@ -122,6 +134,7 @@ int runNode(int argc, char** argv, const NodeHelp& help,
   CLI::App app(help.description, help.name);
   app.footer(footerOf(help));
   try {
+    requireUtf8(argc, argv);
     arguments.erase(arguments.begin());
     std::reverse(arguments.begin(), arguments.end());
     app.parse(arguments);
