@@ -9,6 +9,8 @@ namespace pcrb {
 Stamp pointStamp(Stamp scan, double time) {
   constexpr double kSince1970 = 1e8;   // s: no turn of a sensor takes three years
   constexpr double kYear2200 = 7.3e9;  // s
+  // Since 1970 in ms, µs or ns, as drivers have it in doubles: no offset is that large.
+  for (int i = 0; i != 3 && std::abs(time) >= kYear2200; ++i) time /= 1000.0;
   if (!(std::abs(time) < kYear2200)) return std::numeric_limits<Stamp>::max() / 2;
   // In two parts: a double of 1.5e18 ns has steps of 256.
   const double seconds = std::floor(time);

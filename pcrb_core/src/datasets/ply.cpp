@@ -155,8 +155,7 @@ SensorScan readPlyText(LineReader& reader, const PlyHeader& header, OriginPoints
     for (std::size_t axis = 0; axis != columns.axes.size(); ++axis) {
       point[static_cast<Eigen::Index>(axis)] = requireNumber(reader, words[columns.axes[axis]]);
     }
-    scan.add(point, origin);
-    if (columns.time && scan.points.size() > scan.times.size()) {
+    if (scan.add(point, origin) && columns.time) {
       scan.times.push_back(requireNumber(reader, words[*columns.time]) * layout.time_scale);
     }
   }

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/pcd.hpp"
 
 namespace pcrb {
 namespace {
@@ -84,9 +85,8 @@ SensorScan readRecords(std::string_view bytes, std::size_t count, const RecordLa
     const auto number = [&](const RecordField& field) {
       return loadNumber(record, field, layout.big_endian);
     };
-    scan.add({number(layout.x), number(layout.y), number(layout.z)}, origin);
-    const bool is_kept = layout.time && scan.points.size() > scan.times.size();
-    if (is_kept) scan.times.push_back(number(*layout.time) * layout.time_scale);
+    const bool is_kept = scan.add({number(layout.x), number(layout.y), number(layout.z)}, origin);
+    if (is_kept && layout.time) scan.times.push_back(number(*layout.time) * layout.time_scale);
   }
   return scan;
 }

@@ -1,7 +1,5 @@
 #include "pcrb_core/datasets/sensor_scan.hpp"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
 namespace pcrb {
@@ -12,14 +10,6 @@ PointCounts& PointCounts::operator+=(const PointCounts& other) {
   at_origin += other.at_origin;
   malformed += other.malformed;
   return *this;
-}
-
-double pointTimeScale(std::string_view field, bool is_float) {
-  constexpr std::array<std::string_view, 7> kNames = {
-      "time", "t", "timestamp", "time_stamp", "offset_time", "time_offset", "point_time"};
-  constexpr double kNanosecond = 1e-9;  // s
-  if (std::count(kNames.begin(), kNames.end(), field) == 0) return 0.0;
-  return is_float ? 1.0 : kNanosecond;
 }
 
 void movePoints(const Transform& T_dataset_sensor, std::vector<Eigen::Vector3d>& points) {

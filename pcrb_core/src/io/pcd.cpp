@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <string_view>
 #include <system_error>
@@ -57,15 +58,17 @@ DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options) {
   return parsePcd(file.begin(), file.end(), path, options);
 }
 
-DatasetCloud parsePcd(const char* begin, const char* end, const std::string& name,
-                      const PcdReadOptions& options) {
+namespace {
+
+TimedCloud readAll(std::string_view text, const std::string& name, const PcdReadOptions& options,
+                   bool with_times) {
   if (options.threads < 1) {
     throw InvalidParameter("threads: found " + std::to_string(options.threads) +
                            ", expected at least 1");
   }
-  LineReader lines({begin, static_cast<std::size_t>(end - begin)}, name);
-  const PcdHeader header = readPcdHeader(lines);
-  DatasetCloud cloud;
+  LineReader lines(text, name);
+  const PcdHeader header = readPcdHeader(lines, with_times);
+  TimedCloud cloud;
   cloud.viewpoint = header.viewpoint;
   cloud.is_viewpoint_known = header.is_viewpoint_known;
   cloud.notes = header.notes;
@@ -81,6 +84,41 @@ DatasetCloud parsePcd(const char* begin, const char* end, const std::string& nam
       break;
   }
   return cloud;
+}
+
+}  // namespace
+
+DatasetCloud parsePcd(const char* begin, const char* end, const std::string& name,
+                      const PcdReadOptions& options) {
+  return readAll({begin, static_cast<std::size_t>(end - begin)}, name, options, false);
+}
+
+TimedCloud parseTimedPcd(const char* begin, const char* end, const std::string& name,
+                         const PcdReadOptions& options) {
+  return readAll({begin, static_cast<std::size_t>(end - begin)}, name, options, true);
+}
+
+double pointTimeScale(std::string_view field, bool is_float) {
+  constexpr std::array<std::string_view, 7> kNames = {
+      "time", "t", "timestamp", "time_stamp", "offset_time", "time_offset", "point_time"};
+  constexpr double kNanosecond = 1e-9;  // s
+  if (std::count(kNames.begin(), kNames.end(), field) == 0) return 0.0;
+  return is_float ? 1.0 : kNanosecond;
+}
+
+std::optional<Transform> readViewpoint(const std::string& path) {
+  constexpr std::size_t kLongestHeader = 1 << 16;  // bytes
+  std::string start(kLongestHeader, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (file.bad() || !file.is_open()) throw InvalidFile(path, "cannot be read");
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  LineReader lines(start, path);
+  const PcdHeader header = readPcdHeader(lines, false);
+  DatasetCloud cloud;
+  cloud.viewpoint = header.viewpoint;
+  cloud.is_viewpoint_known = header.is_viewpoint_known;
+  return cloud.hasViewpoint() ? std::optional(cloud.viewpoint) : std::nullopt;
 }
 
 void writePcd(const std::string& path, const DatasetCloud& cloud) {

@@ -53,6 +53,7 @@ bool isBlankLine(const char* line, const char* end) {
 struct Part {
   std::vector<Eigen::Vector3d> points;
   std::vector<float> intensity;
+  std::vector<double> times;
   std::size_t dropped = 0;
   std::size_t rows = 0;
   std::size_t blank_lines = 0;
@@ -68,13 +69,14 @@ class alignas(kCacheLine) AsciiReader {
     for (const PcdField& field : header.fields) {
       columns_.push_back({field});
       tokens_ += field.count;
-      has_intensity_ = has_intensity_ || field.use == PcdUse::kIntensity;
+      if (field.use == PcdUse::kTime) time_scale_ = field.timeScale();
     }
+    has_intensity_ = header.has(PcdUse::kIntensity);
     const std::size_t bytes = lines.rest().size();
     share_ = takeMemory(lines, bytes + pointBytes(header, mostRows(bytes)), budget);
   }
 
-  void read(int threads, DatasetCloud& cloud) const {
+  void read(int threads, TimedCloud& cloud) const {
     // Empty lines behind the last row change nothing.
     const std::string_view text =
         lines_.rest().substr(0, lines_.rest().find_last_not_of(kBlanksAndLineEnds) + 1);
@@ -139,6 +141,9 @@ class alignas(kCacheLine) AsciiReader {
       if (has_intensity_)
         part.intensity.push_back(
             static_cast<float>(values[static_cast<std::size_t>(PcdUse::kIntensity)]));
+      if (time_scale_ > 0.0) {
+        part.times.push_back(values[static_cast<std::size_t>(PcdUse::kTime)] * time_scale_);
+      }
     }
     return part;
   }
@@ -206,7 +211,7 @@ class alignas(kCacheLine) AsciiReader {
     throw InvalidFile(lines_.name(), line_number, inQuotes(line), "a row of points");
   }
 
-  static void join(std::vector<Part>& parts, DatasetCloud& cloud) {
+  static void join(std::vector<Part>& parts, TimedCloud& cloud) {
     std::size_t points = 0;
     std::size_t blank_lines = 0;
     bool is_odd = false;
@@ -220,12 +225,14 @@ class alignas(kCacheLine) AsciiReader {
     if (is_odd) cloud.notes.emplace_back("an integer's column, not used, holds something else");
     cloud.points = std::move(parts[0].points);
     cloud.intensity = std::move(parts[0].intensity);
+    cloud.times = std::move(parts[0].times);
     cloud.points.reserve(points);
     cloud.intensity.reserve(cloud.intensity.empty() ? 0 : points);
     for (std::size_t i = 1; i < parts.size(); ++i) {
       const Part part = std::move(parts[i]);  // its memory is free behind this
       cloud.points.insert(cloud.points.end(), part.points.begin(), part.points.end());
       cloud.intensity.insert(cloud.intensity.end(), part.intensity.begin(), part.intensity.end());
+      cloud.times.insert(cloud.times.end(), part.times.begin(), part.times.end());
     }
   }
 
@@ -234,13 +241,14 @@ class alignas(kCacheLine) AsciiReader {
   std::vector<Column> columns_;
   std::size_t tokens_ = 0;  // values of a row
   bool has_intensity_ = false;
+  double time_scale_ = 0.0;  // 0 = times are not kept
   MemoryBudget::Share share_;
 };
 
 }  // namespace
 
 void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReadOptions& options,
-                  DatasetCloud& cloud) {
+                  TimedCloud& cloud) {
   AsciiReader(header, lines, *options.budget).read(options.threads, cloud);
 }
 

@@ -62,12 +62,12 @@ struct BinaryColumn {
   }
 };
 
-void collect(const PcdHeader& header, const std::vector<BinaryColumn>& columns,
-             DatasetCloud& cloud) {
+void collect(const PcdHeader& header, const std::vector<BinaryColumn>& columns, TimedCloud& cloud) {
   const BinaryColumn& x = columns[header.find(PcdUse::kX)];
   const BinaryColumn& y = columns[header.find(PcdUse::kY)];
   const BinaryColumn& z = columns[header.find(PcdUse::kZ)];
   const std::size_t intensity = header.find(PcdUse::kIntensity);
+  const std::size_t time = header.find(PcdUse::kTime);
   cloud.points.reserve(header.points);
   if (intensity < columns.size()) cloud.intensity.reserve(header.points);
   for (std::size_t i = 0; i < header.points; ++i) {
@@ -79,6 +79,9 @@ void collect(const PcdHeader& header, const std::vector<BinaryColumn>& columns,
     cloud.points.push_back(point);
     if (intensity < columns.size()) {
       cloud.intensity.push_back(static_cast<float>(columns[intensity].at(i)));
+    }
+    if (time < columns.size()) {
+      cloud.times.push_back(columns[time].at(i) * columns[time].field.timeScale());
     }
   }
 }
@@ -109,7 +112,7 @@ bool isFill(std::string_view rest) {
 
 /// The uncompressed values, field after field; PCL leaves padding out, others may not.
 void collectFields(const PcdHeader& header, const LineReader& lines, std::string_view values,
-                   DatasetCloud& cloud) {
+                   TimedCloud& cloud) {
   const bool with_padding = !isExactly(values.size(), header.points, rowBytes(header, false));
   if (with_padding && !isExactly(values.size(), header.points, rowBytes(header, true))) {
     lines.fail(std::to_string(values.size()) + " bytes of uncompressed data",
@@ -134,7 +137,7 @@ bool decodeLzf(std::string_view data, char* values, std::size_t size) {
 }  // namespace
 
 void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
-                   DatasetCloud& cloud) {
+                   TimedCloud& cloud) {
   const std::string_view data = lines.rest();
   const std::size_t row_bytes = rowBytes(header, true);
   if (!isAtLeast(data.size(), header.points, row_bytes) ||
@@ -152,7 +155,7 @@ void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudge
 }
 
 void readPcdCompressed(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
-                       DatasetCloud& cloud) {
+                       TimedCloud& cloud) {
   std::string_view data = lines.rest();
   std::uint32_t sizes[2];
   if (data.size() < sizeof(sizes)) {

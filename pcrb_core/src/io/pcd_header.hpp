@@ -14,8 +14,8 @@ namespace pcrb {
 enum class PcdData { kAscii, kBinary, kBinaryCompressed };
 
 /// What the values of a field become.
-enum class PcdUse { kX, kY, kZ, kIntensity, kNone };
-constexpr std::size_t kPcdUses = 5;
+enum class PcdUse { kX, kY, kZ, kIntensity, kTime, kNone };
+constexpr std::size_t kPcdUses = 6;
 
 /// One entry of FIELDS with what SIZE, TYPE and COUNT say about it.
 struct PcdField {
@@ -27,6 +27,7 @@ struct PcdField {
 
   std::size_t bytes() const { return size * count; }
   bool isPadding() const { return name == "_"; }
+  double timeScale() const { return pointTimeScale(name, type == 'F'); }
 };
 
 /// Comment of a header whose VIEWPOINT is a sensor's pose although it is the identity, as that of a
@@ -44,29 +45,31 @@ struct PcdHeader {
 
   /// Index of the field with this use, or fields.size().
   std::size_t find(PcdUse use) const;
+  bool has(PcdUse use) const { return find(use) < fields.size(); }
 };
 
 /// Takes the lines of `lines` up to the DATA entry and checks them.
 ///
 /// Entries in any order, DATA last; VERSION, COUNT and VIEWPOINT may be missing.
+/// @param with_times  whether the times of the points are used
 /// @throws InvalidFile  with the line, what was found and what was expected.
-PcdHeader readPcdHeader(LineReader& lines);
+PcdHeader readPcdHeader(LineReader& lines, bool with_times);
 
 // Readers of what follows a PCD header. `lines` stands behind the DATA entry; they fill points,
-// intensity, dropped_non_finite and notes, and throw InvalidFile, also where file and
+// intensity, times, dropped_non_finite and notes, and throw InvalidFile, also where file and
 // cloud need more than the budget.
 
 void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReadOptions& options,
-                  DatasetCloud& cloud);
+                  TimedCloud& cloud);
 void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
-                   DatasetCloud& cloud);
+                   TimedCloud& cloud);
 void readPcdCompressed(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
-                       DatasetCloud& cloud);
+                       TimedCloud& cloud);
 
 /// Bytes of so many points in a DatasetCloud.
 inline std::size_t pointBytes(const PcdHeader& header, std::size_t points) {
-  const bool has_intensity = header.find(PcdUse::kIntensity) < header.fields.size();
-  return points * (sizeof(Eigen::Vector3d) + (has_intensity ? sizeof(float) : 0));
+  return points * (sizeof(Eigen::Vector3d) + (header.has(PcdUse::kIntensity) ? sizeof(float) : 0) +
+                   (header.has(PcdUse::kTime) ? sizeof(double) : 0));
 }
 
 /// Waits for a share of the budget.

@@ -44,6 +44,9 @@ TEST(Deskew, TimesSince1970AreTakenAsSuch) {
   EXPECT_EQ(pointStamp(kStart, 0.25), kStart + kSecond / 4);
   EXPECT_EQ(pointStamp(kStart, -0.1), kStart - kSecond / 10);
   EXPECT_EQ(pointStamp(kStart, 1.5e9 + 0.25), kStart + kSecond / 4);
+  for (const double unit : {1e3, 1e6, 1e9}) {  // ms, µs and ns in a double
+    EXPECT_NEAR(static_cast<double>(pointStamp(0, (1.5e9 + 0.25) * unit) - kStart), 0.25e9, 1e3);
+  }
   for (const double no_time : {std::nan(""), 1e300, -1e300}) {
     EXPECT_EQ(pointStamp(kStart, no_time), std::numeric_limits<Stamp>::max() / 2);
   }

@@ -217,6 +217,45 @@ TEST(Pcd, IdentityIsTheSensorsPoseWhereTheConverterSaysSo) {
   EXPECT_TRUE(readPcd(folder.file("again.pcd")).hasViewpoint());
 }
 
+TEST(Pcd, ViewpointIsReadWithoutThePoints) {
+  const pcrb_test::TemporaryFolder folder;
+  PcdText pcd;
+  pcd.viewpoint = "1 2 3 0 0 0 1";
+  pcd.body = "no point at all";
+  const std::string path = folder.file("a.pcd");
+  writeFileAtomically(path, pcd.text());
+  ASSERT_TRUE(readViewpoint(path));
+  EXPECT_EQ(readViewpoint(path)->translation(), Eigen::Vector3d(1, 2, 3));
+  pcd.viewpoint = "0 0 0 1 0 0 0";
+  writeFileAtomically(path, pcd.text());
+  EXPECT_FALSE(readViewpoint(path));
+  writeFileAtomically(path, "# VIEWPOINT is the sensor's pose\n" + pcd.text());
+  EXPECT_TRUE(readViewpoint(path));
+  writeFileAtomically(path, "VERSION 0.7\n");
+  EXPECT_THROW(readViewpoint(path), InvalidFile);
+  EXPECT_THROW(readViewpoint(folder.file("none.pcd")), InvalidFile);
+}
+
+TEST(Pcd, KeepsTheTimesOfThePointsThatStayIfItIsAsked) {
+  const auto times = [](const PcdText& pcd) {
+    const std::string text = pcd.text();
+    const TimedCloud cloud = parseTimedPcd(text.data(), text.data() + text.size(), "a.pcd");
+    EXPECT_EQ(cloud.points, parsePcd(text).points);
+    return cloud.times;
+  };
+  PcdText pcd{"x y z t", "4 4 4 4", "F F F U", "1 1 1 1", "3"};
+  pcd.points = "3";
+  pcd.body = "1 2 3 0\nnan 0 0 20\n4 5 6 50000000\n";
+  EXPECT_EQ(times(pcd), (std::vector<double>{0, 0.05}));  // integers are ns
+  PcdText binary{"x y z timestamp", "4 4 4 8", "F F F F", "1 1 1 1"};
+  binary.data = "binary";
+  binary.body = bytesOf({1.0f, 2.0f, 3.0f}) + bytesOf({1.5e9 + 0.25}) +
+                bytesOf({4.0f, 5.0f, 6.0f}) + bytesOf({1.5e9 + 0.5});
+  EXPECT_EQ(times(binary), (std::vector<double>{1.5e9 + 0.25, 1.5e9 + 0.5}));
+  PcdText without{"x y z", "4 4 4", "F F F", "1 1 1"};
+  EXPECT_TRUE(times(without).empty());
+}
+
 TEST(Pcd, WritesThePublishedForm) {
   const pcrb_test::TemporaryFolder folder;
   DatasetCloud cloud;

@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/pose_covariance.hpp"
 #include "pcrb_core/transform.hpp"
@@ -30,13 +32,17 @@ bool hasField(const sensor_msgs::PointCloud2& message, const std::string& name);
 /// Whether there is a field of that name that PointField can read.
 bool hasFloatField(const sensor_msgs::PointCloud2& message, const std::string& name);
 
-/// One named field of the points of a message, FLOAT32 or FLOAT64.
+/// One named field of the points of a message.
 class PointField {
  public:
+  /// Types of numbers that a field may have: coordinates that are integers have an unknown unit.
+  enum class Types { kFloats, kAll };
+
   /// @param message  must outlive this; its sizes were checked by countPoints.
   /// @throws InvalidProblem  if there is no such field, it is of another type, or it does not fit
   ///                         into point_step.
-  PointField(const sensor_msgs::PointCloud2& message, const std::string& name);
+  PointField(const sensor_msgs::PointCloud2& message, const std::string& name,
+             Types types = Types::kFloats);
 
   double operator[](std::size_t point) const;
 
@@ -45,8 +51,15 @@ class PointField {
   std::size_t step_;
   std::size_t width_;    ///< points of a row
   std::size_t padding_;  ///< bytes behind the points of a row
-  bool is_double_;
+  std::uint8_t type_ = 0;
 };
+
+/// The times of a message's points in seconds, as the driver gives them, from the first field that
+/// pointTimeScale() knows.
+///
+/// @return  empty where there is no such field.
+/// @throws InvalidProblem  if the message's sizes do not fit its data.
+std::vector<double> pointTimes(const sensor_msgs::PointCloud2& message);
 
 /// A message of T · cloud: float32 x y z (+ intensity where the cloud has it), little-endian,
 /// dense, height 1. Points are transformed in double.
@@ -85,6 +98,9 @@ geometry_msgs::TransformStamped toMessage(const Transform& T, const std_msgs::He
 inline std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
+
+/// Exactly, in integers.
+inline Stamp stampOf(const ros::Time& time) { return static_cast<Stamp>(time.toNSec()); }
 
 std_msgs::Header makeHeader(const std::string& frame, const ros::Time& stamp);
 

@@ -3,12 +3,12 @@
 #include <sensor_msgs/PointField.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
-#include "pcrb_core/datasets/sensor_scan.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_server/point_times.hpp"
+#include "pcrb_core/io/pcd.hpp"
 
 namespace pcrb {
 
@@ -26,15 +26,21 @@ auto findField(const sensor_msgs::PointCloud2& message, const std::string& name)
                       [&name](const auto& field) { return field.name == name; });
 }
 
-/// Bytes of a field that can be read, 0 for other types.
-std::size_t floatSize(const sensor_msgs::PointField& field) {
-  if (field.datatype == sensor_msgs::PointField::FLOAT64) return sizeof(double);
-  return field.datatype == sensor_msgs::PointField::FLOAT32 ? sizeof(float) : 0;
+/// Bytes of a number, 0 for types that there are not.
+std::size_t sizeOf(const sensor_msgs::PointField& field) {
+  constexpr std::array<std::size_t, 9> kSizes{0, 1, 1, 2, 2, 4, 4, 4, 8};  // INT8 (1) to FLOAT64
+  return field.datatype < kSizes.size() ? kSizes[field.datatype] : 0;
 }
 
-bool isReadable(const sensor_msgs::PointField& field, std::size_t step) {
-  const std::size_t size = floatSize(field);
-  return size > 0 && field.offset + size <= step;
+bool isFloat(const sensor_msgs::PointField& field) {
+  return field.datatype == sensor_msgs::PointField::FLOAT32 ||
+         field.datatype == sensor_msgs::PointField::FLOAT64;
+}
+
+bool isReadable(const sensor_msgs::PointField& field, std::size_t step, PointField::Types types) {
+  const std::size_t size = sizeOf(field);
+  return size > 0 && field.offset + size <= step &&
+         (types == PointField::Types::kAll || isFloat(field));
 }
 
 sensor_msgs::PointField floatField(const std::string& name, std::uint32_t offset) {
@@ -75,8 +81,9 @@ std::size_t countPoints(const sensor_msgs::PointCloud2& message) {
   if (message.is_bigendian != 0) {
     throw InvalidProblem("PointCloud2: found big-endian data, expected little-endian");
   }
-  rowBytes(message);
-  return std::size_t{message.width} * message.height;
+  const std::size_t count = std::size_t{message.width} * message.height;
+  if (count > 0) rowBytes(message);  // some drivers leave all else of an empty cloud at 0
+  return count;
 }
 
 bool hasField(const sensor_msgs::PointCloud2& message, const std::string& name) {
@@ -85,10 +92,12 @@ bool hasField(const sensor_msgs::PointCloud2& message, const std::string& name) 
 
 bool hasFloatField(const sensor_msgs::PointCloud2& message, const std::string& name) {
   const auto field = findField(message, name);
-  return field != message.fields.end() && isReadable(*field, message.point_step);
+  return field != message.fields.end() &&
+         isReadable(*field, message.point_step, PointField::Types::kFloats);
 }
 
-PointField::PointField(const sensor_msgs::PointCloud2& message, const std::string& name)
+PointField::PointField(const sensor_msgs::PointCloud2& message, const std::string& name,
+                       Types types)
     : first_(message.data.data()),
       step_(message.point_step),
       width_(message.width),
@@ -97,43 +106,51 @@ PointField::PointField(const sensor_msgs::PointCloud2& message, const std::strin
   if (field == message.fields.end()) {
     throw InvalidProblem("PointCloud2: found no field " + name + ", expected x, y and z");
   }
-  is_double_ = floatSize(*field) == sizeof(double);
-  if (!isReadable(*field, step_)) {
+  if (!isReadable(*field, step_, types)) {
     throw InvalidProblem("PointCloud2: found field " + name + " of type " +
                          std::to_string(field->datatype) + " at " + std::to_string(field->offset) +
-                         ", expected FLOAT32 or FLOAT64 within " + std::to_string(step_) +
-                         " bytes");
+                         ", expected " +
+                         (types == Types::kAll ? "a number" : "FLOAT32 or FLOAT64") + " within " +
+                         std::to_string(step_) + " bytes");
   }
+  type_ = field->datatype;
   first_ += field->offset;
 }
 
 double PointField::operator[](std::size_t point) const {
   const std::uint8_t* bytes = first_ + point * step_;
   if (padding_ > 0) bytes += point / width_ * padding_;
-  return is_double_ ? loadAs<double>(bytes) : loadAs<float>(bytes);
+  using Field = sensor_msgs::PointField;
+  switch (type_) {
+    case Field::FLOAT32:
+      return loadAs<float>(bytes);
+    case Field::FLOAT64:
+      return loadAs<double>(bytes);
+    case Field::INT8:
+      return loadAs<std::int8_t>(bytes);
+    case Field::UINT8:
+      return loadAs<std::uint8_t>(bytes);
+    case Field::INT16:
+      return loadAs<std::int16_t>(bytes);
+    case Field::UINT16:
+      return loadAs<std::uint16_t>(bytes);
+    case Field::INT32:
+      return loadAs<std::int32_t>(bytes);
+    default:
+      return loadAs<std::uint32_t>(bytes);
+  }
 }
 
 std::vector<double> pointTimes(const sensor_msgs::PointCloud2& message) {
-  const auto isTime = [](const auto& field) { return pointTimeScale(field.name, true) > 0.0; };
-  const auto field = std::find_if(message.fields.begin(), message.fields.end(), isTime);
-  if (field == message.fields.end()) return {};
+  const auto scaleOf = [](const sensor_msgs::PointField& field) {
+    return pointTimeScale(field.name, isFloat(field));
+  };
+  const auto field = std::find_if(message.fields.begin(), message.fields.end(),
+                                  [&](const auto& known) { return scaleOf(known) > 0.0; });
   std::vector<double> times(countPoints(message));
-  if (field->datatype != sensor_msgs::PointField::UINT32) {
-    const PointField time(message, field->name);
-    for (std::size_t i = 0; i != times.size(); ++i) times[i] = time[i];
-    return times;
-  }
-  if (field->offset + sizeof(std::uint32_t) > message.point_step) {
-    throw InvalidProblem("PointCloud2: found field " + field->name + " at " +
-                         std::to_string(field->offset) + ", expected it within " +
-                         std::to_string(message.point_step) + " bytes");
-  }
-  const double scale = pointTimeScale(field->name, false);
-  const std::size_t row = rowBytes(message);
-  for (std::size_t i = 0; i != times.size(); ++i) {
-    const std::size_t at = i / message.width * row + i % message.width * message.point_step;
-    times[i] = scale * loadAs<std::uint32_t>(message.data.data() + at + field->offset);
-  }
+  if (times.empty() || field == message.fields.end()) return {};
+  const PointField time(message, field->name, PointField::Types::kAll);
+  for (std::size_t i = 0; i != times.size(); ++i) times[i] = scaleOf(*field) * time[i];
   return times;
 }
 

@@ -106,6 +106,49 @@ TEST(MessageConversion, RejectsMessagesThatDoNotHoldWhatTheySay) {
   EXPECT_THROW(fromMessage(sensor_msgs::PointCloud2()), InvalidProblem);
 }
 
+TEST(MessageConversion, ACloudOfNoPointsNeedsNothingElse) {
+  EXPECT_EQ(countPoints(sensor_msgs::PointCloud2()), 0u);
+  sensor_msgs::PointCloud2 message = toMessage(threePoints(), Transform::Identity(), {});
+  message.width = 0;
+  message.data.clear();
+  EXPECT_EQ(fromMessage(message).size(), 0u);
+  EXPECT_TRUE(pointTimes(message).empty());
+}
+
+/// Two points with a field `t` of a type.
+template <typename Number>
+std::vector<double> timesAs(std::uint8_t type, const std::string& name, Number first,
+                            Number second) {
+  sensor_msgs::PointCloud2 message;
+  message.width = 1;
+  message.height = 2;
+  message.point_step = 12;
+  message.row_step = 16;  // with bytes between rows
+  message.data.resize(32);
+  std::memcpy(&message.data[4], &first, sizeof(first));
+  std::memcpy(&message.data[20], &second, sizeof(second));
+  sensor_msgs::PointField field;
+  field.name = name;
+  field.offset = 4;
+  field.datatype = type;
+  field.count = 1;
+  message.fields = {field};
+  return pointTimes(message);
+}
+
+TEST(MessageConversion, TimesOfPointsAreFloatsInSecondsAndIntegersInNanoseconds) {
+  using Field = sensor_msgs::PointField;
+  EXPECT_EQ(timesAs<float>(Field::FLOAT32, "time", 0.25F, 0.5F), (std::vector<double>{0.25, 0.5}));
+  EXPECT_EQ(timesAs<double>(Field::FLOAT64, "timestamp", 1.5e9, 0.5),
+            (std::vector<double>{1.5e9, 0.5}));
+  EXPECT_EQ(timesAs<std::uint32_t>(Field::UINT32, "t", 0, 4'000'000'000U),
+            (std::vector<double>{0, 4}));
+  EXPECT_EQ(timesAs<std::int32_t>(Field::INT32, "offset_time", -1'000'000'000, 0),
+            (std::vector<double>{-1, 0}));
+  EXPECT_TRUE(timesAs<float>(Field::FLOAT32, "ring", 1.0F, 2.0F).empty());
+  EXPECT_THROW(timesAs<float>(9, "time", 0, 0), InvalidProblem);
+}
+
 TEST(MessageConversion, APoseSurvivesItsMessage) {
   const Transform T = makeTransform({1, -2, 3}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5));
   EXPECT_TRUE(fromMessage(toMessage(T)).isApprox(T, 1e-15));

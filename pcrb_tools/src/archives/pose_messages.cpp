@@ -42,7 +42,7 @@ std::vector<PoseMessage> makePoseMessages(const nav_msgs::Path& path) {
 }
 
 std::string placeOf(const std::string& topic, const std_msgs::Header& header) {
-  return topic + " at " + pcrb::formatStamp(static_cast<pcrb::Stamp>(header.stamp.toNSec()));
+  return topic + " at " + pcrb::formatStamp(pcrb::stampOf(header.stamp));
 }
 
 void requireSameFrame(const std::string& place, const std::string& found,
@@ -102,8 +102,7 @@ BagTrajectory readBagTrajectory(const BagMessages& bags, const std::string& topi
         body = pcrb::withoutSlash(message.child_frame);
       }
       requireSameFrame(place, pcrb::withoutSlash(message.header.frame_id), world);
-      poses.push_back(
-          {static_cast<pcrb::Stamp>(message.header.stamp.toNSec()), transformOf(message, place)});
+      poses.push_back({pcrb::stampOf(message.header.stamp), transformOf(message, place)});
     }
   });
   if (poses.empty()) {

@@ -42,8 +42,7 @@ void gather(const geometry_msgs::TransformStamped& stamped, bool is_static,
   }
   frame.parent = parent;
   frame.is_static |= is_static;
-  frame.poses.push_back(
-      {static_cast<pcrb::Stamp>(stamped.header.stamp.toNSec()), requireTransform(stamped)});
+  frame.poses.push_back({pcrb::stampOf(stamped.header.stamp), requireTransform(stamped)});
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "conversion/conversion.hpp"
 #include "conversion/raw_scans.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -134,11 +135,11 @@ KaistStream::KaistStream(const KaistFrames& frames, const KaistRequest& request,
       pairer_(std::max(kPatience, 2 * request.options.max_pair_gap)) {}
 
 void KaistStream::addLeft(const Message& message) {
-  convert(pairer_.addLeft(stampOf(message->header.stamp), message));
+  convert(pairer_.addLeft(pcrb::stampOf(message->header.stamp), message));
 }
 
 void KaistStream::addRight(const Message& message) {
-  convert(pairer_.addRight(stampOf(message->header.stamp), message));
+  convert(pairer_.addRight(pcrb::stampOf(message->header.stamp), message));
 }
 
 void KaistStream::finish() { convert(pairer_.flush()); }

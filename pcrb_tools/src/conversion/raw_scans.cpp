@@ -7,7 +7,6 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/message_conversion.hpp"
-#include "pcrb_server/point_times.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -15,6 +14,7 @@ namespace {
 template <typename Take>
 void forEachPoint(const sensor_msgs::PointCloud2& message, const Take& take) {
   const std::size_t count = pcrb::countPoints(message);
+  if (count == 0) return;
   const pcrb::PointField x(message, "x");
   const pcrb::PointField y(message, "y");
   const pcrb::PointField z(message, "z");
@@ -70,10 +70,6 @@ struct PngImage : png_image {
 
 }  // namespace
 
-pcrb::Stamp stampOf(const ros::Time& time) {
-  return static_cast<pcrb::Stamp>(time.sec) * pcrb::kSecond + time.nsec;
-}
-
 pcrb::SensorScan scanOf(const sensor_msgs::PointCloud2& message, pcrb::OriginPoints origin,
                         const std::string& name) {
   try {
@@ -89,8 +85,7 @@ pcrb::SensorScan timedScanOf(const sensor_msgs::PointCloud2& message, pcrb::Orig
     const std::vector<double> times = pcrb::pointTimes(message);
     pcrb::SensorScan scan;
     forEachPoint(message, [&](std::size_t i, const Eigen::Vector3d& point) {
-      scan.add(point, origin);
-      if (!times.empty() && scan.points.size() > scan.times.size()) scan.times.push_back(times[i]);
+      if (scan.add(point, origin) && !times.empty()) scan.times.push_back(times[i]);
     });
     return scan;
   } catch (const pcrb::InvalidProblem& error) {

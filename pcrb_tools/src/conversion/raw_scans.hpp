@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ros/time.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -11,13 +10,9 @@
 #include <vector>
 
 #include "pcrb_core/datasets/sensor_scan.hpp"
-#include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 
 namespace pcrb_tools {
-
-/// Exactly, in integers.
-pcrb::Stamp stampOf(const ros::Time& time);
 
 /// The points of a message, in double; fields are found by name.
 /// @param name  for messages of errors: the cloud's topic and stamp

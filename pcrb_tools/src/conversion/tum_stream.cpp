@@ -82,7 +82,7 @@ void TumStream::convert(pcrb::Stamp stamp, const std::string& topic, const std::
 }
 
 void TumStream::addCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
-  const pcrb::Stamp stamp = stampOf(cloud->header.stamp);
+  const pcrb::Stamp stamp = pcrb::stampOf(cloud->header.stamp);
   if (!pcrb::hasField(*cloud, "rgb")) {
     conversion_.drop(TumScanSelector::cloudName(stamp), "without colour");
     return;
@@ -101,13 +101,14 @@ void TumStream::addDepth(const sensor_msgs::Image::ConstPtr& image) {
   }
   waiting_.push_back(image);
   if (waiting_.size() <= kMostWaiting) return;
-  conversion_.drop(TumScanSelector::cloudName(stampOf(waiting_.front()->header.stamp)), kNoCamera);
+  conversion_.drop(TumScanSelector::cloudName(pcrb::stampOf(waiting_.front()->header.stamp)),
+                   kNoCamera);
   waiting_.pop_front();
 }
 
 void TumStream::convertDepth(const sensor_msgs::Image::ConstPtr& image) {
   const double units = options_.depth_units;
-  convert(stampOf(image->header.stamp), options_.depth_topic, cameraText(*camera_, units),
+  convert(pcrb::stampOf(image->header.stamp), options_.depth_topic, cameraText(*camera_, units),
           [image, camera = *camera_, units](const std::string& name) {
             return scanOf(*image, camera, units, name);
           });
@@ -126,7 +127,7 @@ void TumStream::setCamera(const sensor_msgs::CameraInfo& info) {
 
 void TumStream::finish() {
   for (const auto& image : std::exchange(waiting_, {})) {
-    conversion_.drop(TumScanSelector::cloudName(stampOf(image->header.stamp)), kNoCamera);
+    conversion_.drop(TumScanSelector::cloudName(pcrb::stampOf(image->header.stamp)), kNoCamera);
   }
 }
 

@@ -71,13 +71,13 @@ class ProtocolImport {
       if (row.reading.frame == pcrb::EthFrame::kGlobal) continue;
       for (const std::string& name : {source, target}) {
         if (viewpoints_.count(name) > 0) continue;
-        const pcrb::DatasetCloud cloud = pcrb::readPcd(folder_.cloud(name));
-        if (!cloud.hasViewpoint()) {
+        const auto viewpoint = pcrb::readViewpoint(folder_.cloud(name));
+        if (!viewpoint) {
           throw pcrb::InvalidFile(folder_.cloud(name), 0, "no VIEWPOINT",
                                   "the scanner's pose, as the protocol is about scans in their own "
                                   "frames (convert with pose_scanner_leica.csv)");
         }
-        viewpoints_.emplace(name, cloud.viewpoint);
+        viewpoints_.emplace(name, *viewpoint);
       }
     }
   }

@@ -28,7 +28,7 @@ std::vector<RecordedPose> readBagPoses(const std::string& path, const std::strin
       const std_msgs::Header& header = message.header;
       RecordedPose pose;
       pose.reply.submission = submissionOf(message);
-      pose.stamp = static_cast<pcrb::Stamp>(header.stamp.toNSec());
+      pose.stamp = pcrb::stampOf(header.stamp);
       pose.place = path + ", " + topic + " at " + pcrb::formatStamp(pose.stamp);
       if (pcrb::withoutSlash(header.frame_id) != pcrb::withoutSlash(frame)) {
         throw pcrb::InvalidFile(pose.place, 0, "a pose in the frame `" + header.frame_id + "`",

@@ -13,7 +13,7 @@ using PoseAt = std::function<PoseLookup(Stamp)>;
 /// When a point was measured.
 ///
 /// @param time  s: after the scan's stamp (before it where negative), or since 1970 where that is
-///              what its size says.
+///              what its size says, then also in ms, µs or ns.
 /// @return      a stamp beyond all logs for what is no time, e.g. NaN.
 Stamp pointStamp(Stamp scan, double time);
 

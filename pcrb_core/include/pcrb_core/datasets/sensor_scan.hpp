@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <string_view>
 #include <vector>
 
 #include "pcrb_core/point_cloud.hpp"
@@ -32,23 +31,21 @@ struct SensorScan {
   PointCounts counts;
 
   /// Counts a point and keeps it if it is one.
-  void add(const Eigen::Vector3d& point, OriginPoints origin) {
+  /// @return  whether it was kept
+  bool add(const Eigen::Vector3d& point, OriginPoints origin) {
     ++counts.read;
     if (!point.allFinite()) {
       ++counts.non_finite;
-    } else if (origin == OriginPoints::kDrop && (point.array() == 0.0).all()) {
-      ++counts.at_origin;
-    } else {
-      points.push_back(point);
+      return false;
     }
+    if (origin == OriginPoints::kDrop && (point.array() == 0.0).all()) {
+      ++counts.at_origin;
+      return false;
+    }
+    points.push_back(point);
+    return true;
   }
 };
-
-/// Seconds of a unit of a field that holds the time of each point, as drivers call it: `time`, `t`,
-/// `timestamp`, `time_stamp`, `offset_time`, `time_offset`, `point_time`: floats are seconds,
-/// integers nanoseconds.
-/// @return  0 for other names
-double pointTimeScale(std::string_view field, bool is_float);
 
 /// Moves points into the data set's frame, in double: p_dataset = T_dataset_sensor · p_sensor, with
 /// the rotation as it is given.

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pcrb_core/io/memory_budget.hpp"
@@ -35,6 +37,27 @@ DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options = {}
 /// The same from memory; `name` stands for the path in messages.
 DatasetCloud parsePcd(const char* begin, const char* end, const std::string& name,
                       const PcdReadOptions& options = {});
+
+/// Seconds of a unit of a field that holds the time of each point, as drivers call it: `time`, `t`,
+/// `timestamp`, `time_stamp`, `offset_time`, `time_offset`, `point_time`: floats are seconds,
+/// integers nanoseconds.
+/// @return  0 for other names
+double pointTimeScale(std::string_view field, bool is_float);
+
+/// A cloud with the times of its points, from the first field that pointTimeScale() knows.
+struct TimedCloud : DatasetCloud {
+  std::vector<double> times;  ///< s, one per point, or empty where there is no such field
+};
+
+/// parsePcd() with the times of the points.
+TimedCloud parseTimedPcd(const char* begin, const char* end, const std::string& name,
+                         const PcdReadOptions& options = {});
+
+/// The VIEWPOINT of a PCD file, as DatasetCloud::hasViewpoint() has it; nothing where it is
+/// unknown. Reads the header only.
+///
+/// @throws InvalidFile  for a header that readPcd() would refuse.
+std::optional<Transform> readViewpoint(const std::string& path);
 
 /// Writes ASCII PCD v0.7, fields x y z (SIZE 4 4 4, TYPE F F F), each coordinate in the shortest
 /// form that reads back to the same double, VIEWPOINT = translation and quaternion (w x y z) of
