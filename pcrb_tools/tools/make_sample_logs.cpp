@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"small", "medium", "large"}))
       ->capture_default_str();
   app.add_option("--data-set", request.data_sets, "data set to simulate, several if repeated")
-      ->check(CLI::IsMember({"eth", "planetary", "tum", "kaist"}))
+      ->check(CLI::IsMember(request.data_sets))
       ->capture_default_str();
   app.add_option(
          "--ground-truth-error", request.ground_truth_error,

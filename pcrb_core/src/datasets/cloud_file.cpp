@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "datasets/records.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {
@@ -16,10 +16,7 @@ namespace {
 /// The part behind the last point, in lower case.
 std::string endingOf(std::string_view file_name) {
   const std::size_t point = file_name.rfind('.');
-  std::string ending(point == std::string_view::npos ? "" : file_name.substr(point));
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return inSmallLetters(point == std::string_view::npos ? "" : file_name.substr(point));
 }
 
 SensorScan scanOfPcd(std::string_view bytes, OriginPoints origin, const std::string& name) {
@@ -27,12 +24,15 @@ SensorScan scanOfPcd(std::string_view bytes, OriginPoints origin, const std::str
   MemoryBudget own(MemoryBudget::ofProcess().limit());
   PcdReadOptions options;
   options.budget = &own;
-  const DatasetCloud cloud = parsePcd(bytes.data(), bytes.data() + bytes.size(), name, options);
+  const TimedCloud cloud = parseTimedPcd(bytes.data(), bytes.data() + bytes.size(), name, options);
   SensorScan scan;
   scan.viewpoint = cloud.viewpoint;
   scan.is_viewpoint_known = cloud.is_viewpoint_known;
   scan.points.reserve(cloud.points.size());
-  for (const Eigen::Vector3d& point : cloud.points) scan.add(point, origin);
+  for (std::size_t i = 0; i != cloud.points.size(); ++i) {
+    const bool is_kept = scan.add(cloud.points[i], origin);
+    if (is_kept && !cloud.times.empty()) scan.times.push_back(cloud.times[i]);
+  }
   scan.counts.read += cloud.dropped_non_finite;
   scan.counts.non_finite += cloud.dropped_non_finite;
   return scan;

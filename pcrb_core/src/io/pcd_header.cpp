@@ -1,7 +1,6 @@
 #include "pcd_header.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -18,12 +17,6 @@ using Values = std::vector<std::string_view>;
 constexpr double kNewestVersion = 0.7;
 constexpr double kUnitTolerance = 1e-3;
 constexpr std::size_t kLargestCount = std::numeric_limits<std::int32_t>::max();
-
-std::string inSmallLetters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// Reads the entries one by one; knows which were there.
 class HeaderReader {
@@ -244,6 +237,13 @@ std::size_t PcdHeader::find(PcdUse use) const {
   return static_cast<std::size_t>(found - fields.begin());
 }
 
-PcdHeader readPcdHeader(LineReader& lines) { return HeaderReader(lines).read(); }
+PcdHeader readPcdHeader(LineReader& lines, bool with_times) {
+  PcdHeader header = HeaderReader(lines).read();
+  const auto time = std::find_if(
+      header.fields.begin(), header.fields.end(),
+      [](const PcdField& field) { return field.count == 1 && field.timeScale() > 0.0; });
+  if (with_times && time != header.fields.end()) time->use = PcdUse::kTime;
+  return header;
+}
 
 }  // namespace pcrb

@@ -1,8 +1,9 @@
 #include "pcrb_core/io/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/locale/utf.hpp>
-#include <cctype>
+#include <fstream>
 #include <utility>
 
 #include "pcrb_core/error.hpp"
@@ -32,15 +33,23 @@ bool isUtf16(std::string_view text) {
          (is_zero(1) && is_zero(3) && !is_zero(0) && !is_zero(2));
 }
 
-bool isHtml(std::string_view text) {
+bool isPage(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-  std::string start(text.substr(0, 14));
-  std::transform(start.begin(), start.end(), start.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return start == "<!doctype html" || beginsWith(start, "<html");
+  const std::string start = inSmallLetters(text.substr(0, 14));
+  constexpr std::array<std::string_view, 4> kStarts{"<!doctype html", "<html", "<head", "<!--"};
+  return std::any_of(kStarts.begin(), kStarts.end(),
+                     [&](std::string_view with) { return beginsWith(start, with); });
 }
 
+/// A page of XHTML, or the answer of a store of objects.
+bool isXml(std::string_view text) { return beginsWith(text, "<?xml"); }
+
 bool isLfsPointer(std::string_view text) { return beginsWith(text, "version https://git-lfs"); }
+
+/// Of gzip, whose third byte says deflate, or zip.
+bool isArchive(std::string_view text) {
+  return beginsWith(text, "\x1F\x8B\x08") || beginsWith(text, "PK\x03\x04");
+}
 
 bool hasLoneCarriageReturns(std::string_view text) {
   const std::size_t first = text.find_first_of("\r\n");
@@ -51,13 +60,14 @@ bool hasLoneCarriageReturns(std::string_view text) {
 /// What a file is that has no lines of data in it, and what to do about it; nothing for others.
 std::pair<const char*, const char*> describeForeign(std::string_view text) {
   if (isUtf16(text)) return {"UTF-16 text", "UTF-8 (iconv -f UTF-16 -t UTF-8)"};
-  if (isHtml(text)) {
+  if (isPage(text)) {
     return {"an HTML page", "data: the download gave a page, of an error or to confirm, instead"};
   }
+  if (isXml(text)) return {"a page of XML", "data: the download gave a page, of an error, instead"};
   if (isLfsPointer(text)) {
     return {"a Git LFS pointer", "the file that it stands for (git lfs pull)"};
   }
-  if (beginsWith(text, "\x1F\x8B") || beginsWith(text, "PK\x03\x04")) {
+  if (isArchive(text)) {
     return {"a compressed archive", "what is in it"};
   }
   if (hasLoneCarriageReturns(text)) {
@@ -75,9 +85,19 @@ LineReader::LineReader(std::string_view text, std::string name)
 }
 
 void requireData(std::string_view start, const std::string& name) {
-  if (!isHtml(start) && !isLfsPointer(start)) return;
+  if (!isPage(start) && !isXml(start) && !isLfsPointer(start) && !isArchive(start)) return;
   const auto [found, expected] = describeForeign(start);
   throw InvalidFile(name, 0, found, expected);
+}
+
+void requireDataFile(const std::string& path) {
+  std::string start(512, '\0');
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InvalidFile(path, "cannot be read");
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  if (start.empty()) throw InvalidFile(path, 0, "an empty file", "data");
+  if (!isArchive(start)) requireData(start, path);
 }
 
 bool LineReader::next(std::string_view& line) {
@@ -125,6 +145,14 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+std::string inSmallLetters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return small;
 }
 
 std::string inQuotes(std::string_view text) {

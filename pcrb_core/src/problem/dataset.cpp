@@ -13,6 +13,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
 
@@ -57,6 +58,7 @@ class DatasetYaml {
 
   void readInto(Dataset& dataset) const {
     const FileBytes file(path_);
+    requireData(file.text(), path_);
     try {
       readMap(YAML::Load(std::string(file.text())),
               {{"sensor", [&](const YAML::Node& value) { dataset.sensor = text(value); }},
@@ -158,6 +160,10 @@ class DatasetYaml {
 };
 
 }  // namespace
+
+bool isPublished(const std::string& data_set) {
+  return !builtIn(data_set, BoundsSource::kMeasured).sensor.empty();
+}
 
 Dataset loadDataset(const std::string& root, const std::string& name, BoundsSource bounds) {
   Dataset dataset = builtIn(name, bounds);

@@ -182,5 +182,28 @@ TEST(CloudFile, ReadsPcdAndCountsWhatIsNotFinite) {
   EXPECT_EQ(scan.viewpoint.translation(), Eigen::Vector3d(7, 8, 9));
 }
 
+TEST(CloudFile, ReadsTheTimesOfAPcd) {
+  CloudFileOptions drop;
+  drop.origin = OriginPoints::kDrop;
+  const SensorScan scan = parse(
+      "VERSION 0.7\nFIELDS x y z time\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 4\n"
+      "HEIGHT 1\nPOINTS 4\nDATA ascii\n1.5 -2 3 0.25\n0 0 0 0.5\nnan 1 1 0.75\n4 5 6 1\n",
+      "a.pcd", drop);
+  expectTwoPoints(scan);
+  EXPECT_EQ(scan.times, (std::vector<double>{0.25, 1}));
+}
+
+TEST(CloudFile, NamesWhatIsThereInPlaceOfAnyCloud) {
+  const std::string zip = std::string("PK\x03\x04", 4) + std::string(60, 'x');
+  for (const char* name : {"a.pcd", "a.ply", "a.bin", "a.npy"}) {
+    PCRB_EXPECT_ERROR(InvalidFile, parse("<!DOCTYPE html><html></html>\n", name), "an HTML page");
+    PCRB_EXPECT_ERROR(InvalidFile, parse("<?xml version=\"1.0\"?><Error>", name), "a page of XML");
+    PCRB_EXPECT_ERROR(InvalidFile, parse("version https://git-lfs.github.com/spec/v1\n", name),
+                      "a Git LFS pointer");
+    PCRB_EXPECT_ERROR(InvalidFile, parse(zip, name), "a compressed archive");
+    PCRB_EXPECT_ERROR(InvalidFile, parse("", name), name);
+  }
+}
+
 }  // namespace
 }  // namespace pcrb

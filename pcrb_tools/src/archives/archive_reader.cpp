@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 #include <vector>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
@@ -56,16 +56,6 @@ void require(int status, archive* reader, const std::string& path) {
 }
 
 }  // namespace
-
-bool beginsLikeHtml(const std::string& path) {
-  std::array<char, 256> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), start.size() - 1);
-  std::string text(start.data());
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text.find("<html") != std::string::npos || text.find("<!doctype") != std::string::npos;
-}
 
 bool isArchiveName(const std::string& path) {
   constexpr std::array<std::string_view, 6> kEnds = {".zip",    ".tar",     ".tgz",
@@ -173,10 +163,7 @@ void ArchiveReader::refuseLargerThan(std::uint64_t limit) const {
 }
 
 void ArchiveReader::fail() const {
-  if (beginsLikeHtml(path_)) {
-    throw pcrb::InvalidFile(path_, 0, "an HTML page",
-                            "an archive: the download needs a confirmation in a browser");
-  }
+  pcrb::requireDataFile(path_);
   const char* const what = archive_error_string(archive_.get());
   const std::string where = name_.empty() ? "" : ", at or after the entry " + pcrb::inQuotes(name_);
   throw pcrb::InvalidFile(

@@ -12,10 +12,6 @@ namespace pcrb_tools {
 /// tar.bz2, tar.xz.
 bool isArchiveName(const std::string& path);
 
-/// Whether a file begins like a page of HTML: what comes instead of a file that needs a
-/// confirmation.
-bool beginsLikeHtml(const std::string& path);
-
 /// A name from an archive or a list, made plain: no `.` parts, no doubled or trailing `/`.
 ///
 /// Names are data of strangers: nothing outside the archive may be meant.

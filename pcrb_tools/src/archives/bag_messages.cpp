@@ -113,6 +113,7 @@ BagMessages::BagMessages(const std::vector<std::string>& paths) {
     } catch (const rosbag::BagUnindexedException&) {
       refuseOpenBag(path);
     } catch (const ros::Exception& error) {
+      requireWholeBag(path);
       throw pcrb::InvalidFile(path, "damaged or no bag: " + std::string(error.what()));
     }
   }

@@ -11,6 +11,7 @@
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/problem.hpp"
 
@@ -30,7 +31,7 @@ void requireArchive(const std::string& path) {
 }
 
 void requireLog(const Source& source, const std::string& path) {
-  if (beginsLikeHtml(path)) throw pcrb::InvalidFile(path, 0, "an HTML page", "a log");
+  pcrb::requireDataFile(path);
   if (!isBag(source.file)) return;
   requireWholeBag(path);
 }

@@ -1,7 +1,6 @@
 #include "fetch/response.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
@@ -12,13 +11,6 @@ namespace pcrb_tools {
 namespace {
 
 constexpr std::size_t kMaxHtml = 4 << 20;
-
-std::string lowered(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 }  // namespace
 
@@ -38,7 +30,7 @@ void Response::readHeader(std::string_view line) {
   }
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return;
-  const std::string name = lowered(line.substr(0, colon));
+  const std::string name = pcrb::inSmallLetters(line.substr(0, colon));
   std::string_view value = line.substr(colon + 1);
   while (!value.empty() && (value.back() == '\r' || value.back() == '\n')) value.remove_suffix(1);
   value = pcrb::trimmed(value);
@@ -46,7 +38,7 @@ void Response::readHeader(std::string_view line) {
   if (name == "last-modified") last_modified = value;
   if (name == "content-range") content_range = value;
   if (name == "content-length" || name == "transfer-encoding") is_framed = true;
-  if (name == "content-type") is_html = lowered(value).find("text/html") == 0;
+  if (name == "content-type") is_html = pcrb::inSmallLetters(value).find("text/html") == 0;
 }
 
 bool Response::open() {

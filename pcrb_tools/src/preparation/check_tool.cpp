@@ -194,6 +194,7 @@ bool runCheckTool(const CheckOptions& options, std::ostream& out) {
   for (const auto& [data_set, sequence] : wanted.bare) {
     const std::string folder = options.root + "/" + data_set + "/" + sequence;
     report.add({{Severity::kNote, folder, "no problem file uses it"}});
+    pcrb::loadDataset(options.root, data_set);  // its parameters must be readable
     if (hasClouds(folder)) folders.summaries(folder);
   }
   report.printSummary(wanted.files.size(), folders.clouds());

@@ -2,10 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
-#include <string_view>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
@@ -14,12 +11,6 @@
 
 namespace pcrb_tools {
 namespace {
-
-/// Whether a data set's parameters are built in.
-bool isBuiltIn(const std::string& data_set) {
-  constexpr std::array<std::string_view, 4> kPublished{"eth", "planetary", "tum", "kaist"};
-  return std::count(kPublished.begin(), kPublished.end(), data_set) > 0;
-}
 
 void requireKnown(const std::optional<double>& wanted, double known, const std::string& option,
                   const std::string& path) {
@@ -59,7 +50,7 @@ void settleParameters(const OwnRequest& request, const DatasetParameters& parame
   const std::string path =
       (std::filesystem::path(request.root) / request.data_set / "dataset.yaml").string();
   pcrb::Dataset dataset = pcrb::loadDataset(request.root, request.data_set);
-  if (std::filesystem::exists(path) || isBuiltIn(request.data_set)) {
+  if (std::filesystem::exists(path) || pcrb::isPublished(request.data_set)) {
     requireKnown(parameters.overlap_distance, dataset.overlap_distance, "--overlap-distance", path);
     requireKnown(parameters.voxel_leaf, dataset.voxel_leaf, "--voxel-leaf", path);
     return;

@@ -111,11 +111,21 @@ TEST(ArchiveReader, VerifyFindsDamagedBytesThatTheHeadersDoNotShow) {
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, verify(), "damaged or no archive");
 }
 
-TEST(ArchiveReader, AnHtmlPageIsNoArchive) {
+TEST(ArchiveReader, NamesWhatIsThereInPlaceOfAnArchive) {
   const pcrb_test::TemporaryFolder folder;
-  const std::string path = folder.file("global_frame.zip");
-  pcrb_test::writeFile(path, "\n<!DOCTYPE html><html><body>Confirm the download</body></html>\n");
-  PCRB_EXPECT_ERROR(pcrb::InvalidFile, filesOf(path), "found an HTML page, expected an archive");
+  for (const char* name : {"global_frame.zip", "sequence.tgz"}) {
+    const std::string path = folder.file(name);
+    const auto expect = [&](const std::string& bytes, const char* message) {
+      pcrb_test::writeFile(path, bytes);
+      PCRB_EXPECT_ERROR(pcrb::InvalidFile, filesOf(path), message);
+    };
+    expect("\n<!DOCTYPE html><html><body>Confirm the download</body></html>\n",
+           "found an HTML page, expected data");
+    expect("<?xml version=\"1.0\"?><Error><Code>AccessDenied</Code></Error>", "a page of XML");
+    expect("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 1\n",
+           "found a Git LFS pointer");
+    expect("", "found an empty file");
+  }
 }
 
 TEST(ArchiveReader, RandomBytesAreNoArchive) {

@@ -41,6 +41,7 @@ TEST_F(BagMessagesTest, AWholeBagIsWholeAndOneThatWasCutAnywhereIsNot) {
                                  std::size_t{4200}, std::size_t{20}}) {
     pcrb_test::writeFile(cut, bytes.substr(0, size));
     PCRB_EXPECT_ERROR(pcrb::InvalidFile, requireWholeBag(cut), "cut or damaged");
+    PCRB_EXPECT_ERROR(pcrb::InvalidFile, BagMessages({cut}), "cut or damaged");
   }
 }
 
@@ -56,6 +57,7 @@ TEST_F(BagMessagesTest, WhatHasTheNameOfABagAndIsNoneIsNamed) {
   expect(std::string("SQLite format 3\0", 16) + std::string(100, 'x'), "a bag of ROS 2 (sqlite3)");
   expect("\x89MCAP0\r\n....", "a bag of ROS 2 (mcap)");
   expect("#ROSBAG V1.2\n", "found a bag of version 1");
+  expect("\x1F\x8B\x08 a bag in gzip", "found a compressed archive");
   expect("", "found an empty file");
   expect("anything", "expected a bag of ROS 1");
 }

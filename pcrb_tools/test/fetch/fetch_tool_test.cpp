@@ -281,7 +281,7 @@ TEST_F(FetchToolTest, ALogThatLacksAFileIsNotConverted) {
   writeFile(folder_.file("s.txt"), "# poses\n");
   set("/page/s.txt");
   EXPECT_FALSE(fetch());
-  EXPECT_TRUE(says("s-groundtruth.txt.part: found an HTML page, expected a log")) << output_;
+  EXPECT_TRUE(says("s-groundtruth.txt.part: found an HTML page, expected data")) << output_;
   EXPECT_TRUE(says("tum/s: not converted, as not all of its files are there")) << output_;
   EXPECT_TRUE(converted_.empty());
   set("/files/s.txt");

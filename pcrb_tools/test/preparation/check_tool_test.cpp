@@ -5,10 +5,12 @@
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
 #include "pcrb_core/random.hpp"
 #include "preparation/preparation_tools.hpp"
+#include "support/expect_error.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -106,6 +108,19 @@ TEST_F(CheckToolTest, ChecksCloudsWithoutProblemFiles) {
   fs::resize_file(folder_.file("own/yard/scan3.pcd"), 200);
   EXPECT_FALSE(check());
   EXPECT_TRUE(says("error: " + folder_.file("own/yard/scan3.pcd:"))) << output_;
+}
+
+TEST_F(CheckToolTest, ReadsTheParametersOfCloudsWithoutProblemFiles) {
+  for (const char* file : {"own/yard_local.txt", "own/yard_global.txt"}) {
+    fs::remove(folder_.file(file));
+  }
+  const auto expect = [this](const std::string& yaml, const char* message) {
+    pcrb::writeFileAtomically(folder_.file("own/dataset.yaml"), yaml);
+    PCRB_EXPECT_ERROR(pcrb::InvalidFile, check(), message);
+  };
+  expect("overlap_distanse: 0.2\n", "dataset.yaml:1: found unknown key 'overlap_distanse'");
+  expect("<html></html>\n", "found an HTML page");
+  expect("version https://git-lfs.github.com/spec/v1\n", "found a Git LFS pointer");
 }
 
 TEST_F(CheckToolTest, ReportsAMissingFolderOfClouds) {

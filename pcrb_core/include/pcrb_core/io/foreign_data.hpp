@@ -9,7 +9,10 @@ namespace pcrb {
 /// looked at by LineReader.
 ///
 /// @param start  the first bytes at least
-/// @throws InvalidFile  for an HTML page or a Git LFS pointer.
+/// @throws InvalidFile  for a page of HTML or XML, a Git LFS pointer or an archive.
 void requireData(std::string_view start, const std::string& name);
+
+/// The same of a file that may be an archive, but not empty.
+void requireDataFile(const std::string& path);
 
 }  // namespace pcrb

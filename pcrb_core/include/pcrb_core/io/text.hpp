@@ -60,6 +60,9 @@ inline const char* skipBlanks(const char* at, const char* end) {
 /// The text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 
+/// The text with small letters for ASCII's capitals.
+std::string inSmallLetters(std::string_view text);
+
 /// The parts one behind the other, with a separator between them: `a, b, c`.
 /// @tparam Texts  a range of std::string.
 template <typename Texts>

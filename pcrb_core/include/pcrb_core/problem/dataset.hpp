@@ -45,6 +45,9 @@ enum class BoundsSource { kMeasured, kNote };
 Dataset loadDataset(const std::string& root, const std::string& name,
                     BoundsSource bounds = BoundsSource::kMeasured);
 
+/// Whether it is one of the published data sets, whose parameters are built in.
+bool isPublished(const std::string& data_set);
+
 /// One problem file and the folder of its clouds.
 struct SequenceFiles {
   std::string data_set;  ///< folder below the root
