@@ -165,7 +165,7 @@ void requireFinite(const pcrb::Trajectory& trajectory) {
         pcrb::parsePlanetaryPose(text, "fuzz.txt");
         break;
       case 2:
-        requireFinite(pcrb::parseTumTrajectory(text, "fuzz.txt"));
+        requireFinite(pcrb::parseTrajectory(text, "fuzz.txt").trajectory);
         break;
       case 3:
         requireFinite(pcrb::parseKaistTrajectory(text, "fuzz.txt"));

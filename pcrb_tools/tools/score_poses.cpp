@@ -1,5 +1,5 @@
 #include <iostream>
-#include <vector>
+#include <optional>
 
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
@@ -12,7 +12,7 @@ struct Options {
   pcrb_tools::ProblemScoringOptions problems;
   pcrb_tools::TrackingOptions tracking;
   std::string frame = "data_set";
-  std::vector<double> sensor_in_body;
+  std::optional<pcrb::Transform> T_body_sensor;
 };
 
 void addOffsets(CLI::App& app, CLI::Option* sequence, pcrb_tools::TrackingOptions& tracking) {
@@ -56,10 +56,9 @@ void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) 
       ->capture_default_str();
   app.add_flag("--align", tracking.align, "align the trajectory rigidly before the absolute errors")
       ->needs(sequence);
-  app.add_option("--sensor-in-body", options.sensor_in_body,
-                 "x y z qx qy qz qw of the sensor where poses are those of a body")
-      ->expected(7)
+  pcrb_tools::addSensorInBodyOption(app, options.T_body_sensor, "the poses are the sensor's")
       ->needs(sequence);
+  pcrb_tools::addPoseFormatOption(app, options.problems.poses.format)->needs(sequence);
   app.add_option("--tf", tracking.tf, "WORLD BODY: take the poses from tf between these frames")
       ->expected(2)
       ->needs(sequence);
@@ -111,11 +110,7 @@ int score(Options& options) {
         "expected a problem file and --run, or --sequence and --output (see --help)");
   }
   options.tracking.poses = options.problems.poses;
-  const std::vector<double>& s = options.sensor_in_body;
-  if (!s.empty()) {
-    options.tracking.T_body_sensor =
-        pcrb::makeTransform({s[0], s[1], s[2]}, Eigen::Quaterniond(s[6], s[3], s[4], s[5]));
-  }
+  options.tracking.T_body_sensor = options.T_body_sensor.value_or(pcrb::Transform::Identity());
   if (runTrackingScoring(options.tracking, std::cout)) return pcrb_tools::kSuccess;
   std::cerr << "score_poses: more scans were lost than --max-lost allows" << std::endl;
   return pcrb_tools::kFailure;

@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
+#include "datasets/named_columns.hpp"
 #include "datasets/pose_rows.hpp"
-#include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 
 namespace pcrb {
@@ -40,10 +38,9 @@ std::string withoutPath(const std::string& name) {
 PlainName plain(std::string_view field) {
   PlainName column;
   for (const char c : trimmed(field)) {
-    if (c != '"' && c != '#' && c != '%') {
-      column.name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
+    if (c != '"' && c != '#' && c != '%') column.name += c;
   }
+  column.name = inSmallLetters(column.name);
   const std::size_t bracket = column.name.find_first_of("[(");
   if (bracket != std::string::npos) {
     column.unit =
@@ -66,9 +63,6 @@ PlainName plain(std::string_view field) {
   }
   return column;
 }
-
-/// The column of each meaning.
-using ColumnPlaces = std::map<std::string, std::size_t>;
 
 const std::map<std::string, std::string>& synonyms() {
   static const std::map<std::string, std::string> kSynonyms{{"time", "stamp"},
@@ -101,49 +95,39 @@ const std::map<std::string, std::string>& synonyms() {
   return kSynonyms;
 }
 
+std::string poseMeaningOf(const std::string& column) {
+  const std::string name = plain(column).name;
+  const auto known = synonyms().find(name);
+  return known == synonyms().end() ? name : known->second;
+}
+
 /// Reads the rows below a row of names.
 class ColumnReader {
  public:
   ColumnReader(std::string_view text, const std::string& name, PoseFile& file)
-      : reader_(text, name), file_(file) {}
+      : columns_(text, name, poseMeaningOf, kExpectedColumns),
+        is_matrix_(columns_.hasMatrix("t")),
+        file_(file) {
+    const bool has_pose = has("x") && has("y") && has("z") && hasRotation();
+    if (!has_pose && !is_matrix_) {
+      columns_.reader().fail("the columns " + joined(columns_.names()), kExpectedColumns);
+    }
+    constexpr double kDegree = 0.017453292519943295;  // rad
+    for (const char* angle : {"roll", "pitch", "yaw"}) {
+      radians_[angle] = has(angle) && unitIn(angle).substr(0, 3) == "deg" ? kDegree : 1.0;
+    }
+    chooseKey();
+  }
 
   void read() {
-    readNames();
-    std::vector<std::string> fields;
-    while (nextCsvRow(reader_, fields)) {
-      if (fields.front().substr(0, 1) == "#") continue;
-      if (fields.size() < width_) {
-        reader_.fail(
-            std::to_string(fields.size()) + " fields, the first is " + inQuotes(fields.front()),
-            std::to_string(width_) + " as in the row of names");
-      }
-      readRow(fields);
-    }
+    while (columns_.next()) readRow();
   }
 
  private:
-  void readNames() {
-    std::vector<std::string> fields;
-    do {
-      if (!nextCsvRow(reader_, fields))
-        throw InvalidFile(reader_.name(), 0, "no names", kExpectedColumns);
-    } while (fields.size() == 1);  // a comment
-    width_ = fields.size();
-    for (std::size_t i = 0; i != width_; ++i) {
-      const PlainName column = plain(fields[i]);
-      const auto known = synonyms().find(column.name);
-      const std::string meaning = known == synonyms().end() ? column.name : known->second;
-      if (columns_.emplace(meaning, i).second) units_[meaning] = column.unit;
-    }
-    if (has("x") && has("y") && has("z") && hasRotation())
-      chooseKey();
-    else if (has("t00") && has("t23"))
-      chooseKey();
-    else
-      reader_.fail("the columns " + joined(fields), kExpectedColumns);
+  bool has(const std::string& meaning) const { return columns_.has(meaning); }
+  std::string unitIn(const std::string& meaning) const {
+    return plain(columns_.nameOf(meaning)).unit;
   }
-
-  bool has(const std::string& meaning) const { return columns_.count(meaning) > 0; }
 
   bool hasRotation() const {
     return (has("qx") && has("qy") && has("qz") && has("qw")) ||
@@ -158,79 +142,62 @@ class ColumnReader {
     } else if (has("index")) {
       file_.key = PoseKey::kIndex;
     } else {
-      reader_.fail("no column timestamp, frame or file", kExpectedColumns);
+      columns_.reader().fail("no column timestamp, frame or file", kExpectedColumns);
     }
   }
 
-  void readRow(const std::vector<std::string>& fields) {
+  void readRow() {
     FilePose pose;
-    if (file_.key == PoseKey::kStamp) pose.stamp = stampOf(fields);
-    if (file_.key == PoseKey::kName) pose.name = fields[columns_.at("name")];
+    if (file_.key == PoseKey::kStamp) pose.stamp = stamp();
+    if (file_.key == PoseKey::kName) pose.name = columns_.field("name");
     if (file_.key == PoseKey::kIndex) {
-      const auto index = parseUnsigned(fields[columns_.at("index")]);
-      if (!index) reader_.fail(inQuotes(fields[columns_.at("index")]), "the number of a scan");
+      const auto index = parseUnsigned(columns_.field("index"));
+      if (!index) columns_.reader().fail(inQuotes(columns_.field("index")), "the number of a scan");
       pose.index = *index;
     }
-    pose.T_world_body = poseOf(fields);
+    pose.T_world_body = is_matrix_ ? columns_.pose("t") : poseOfRow();
     file_.poses.push_back(std::move(pose));
   }
 
-  double number(const std::vector<std::string>& fields, const std::string& meaning) const {
-    const std::string& field = fields[columns_.at(meaning)];
-    const auto value = parseDouble(field);
-    if (!value || !std::isfinite(*value)) {
-      reader_.fail(inQuotes(field) + " in column " + meaning, "a number");
-    }
-    return *value;
+  double angle(const std::string& meaning) const {
+    return columns_.number(meaning) * radians_.at(meaning);
   }
 
-  double angle(const std::vector<std::string>& fields, const std::string& meaning) const {
-    constexpr double kDegree = 0.017453292519943295;  // rad
-    const bool is_deg = units_.at(meaning).substr(0, 3) == "deg";
-    return number(fields, meaning) * (is_deg ? kDegree : 1.0);
-  }
-
-  Transform poseOf(const std::vector<std::string>& fields) const {
-    const auto n = [&](const std::string& meaning) { return number(fields, meaning); };
-    if (has("t00")) {
-      std::vector<double> entries;
-      for (const char row : {'0', '1', '2'}) {
-        for (const char column : {'0', '1', '2', '3'}) entries.push_back(n({'t', row, column}));
-      }
-      return requireMatrixPose(reader_, entries);
-    }
+  Transform poseOfRow() const {
+    const auto n = [&](const char* meaning) { return columns_.number(meaning); };
     const Eigen::Vector3d translation(n("x"), n("y"), n("z"));
-    if (has("qw"))
-      return requireQuaternionPose(reader_, translation, {n("qw"), n("qx"), n("qy"), n("qz")});
+    if (has("qw")) {
+      return requireQuaternionPose(columns_.reader(), translation,
+                                   {n("qw"), n("qx"), n("qy"), n("qz")});
+    }
     using Axis = Eigen::AngleAxisd;
-    return makeTransform(translation, Axis(angle(fields, "yaw"), Eigen::Vector3d::UnitZ()) *
-                                          Axis(angle(fields, "pitch"), Eigen::Vector3d::UnitY()) *
-                                          Axis(angle(fields, "roll"), Eigen::Vector3d::UnitX()));
+    return makeTransform(translation, Axis(angle("yaw"), Eigen::Vector3d::UnitZ()) *
+                                          Axis(angle("pitch"), Eigen::Vector3d::UnitY()) *
+                                          Axis(angle("roll"), Eigen::Vector3d::UnitX()));
   }
 
-  Stamp stampOf(const std::vector<std::string>& fields) {
+  Stamp stamp() {
     if (!has("stamp")) {
-      return requireStamp(reader_, fields[columns_.at("sec")], kSecond) +
-             requireStamp(reader_, fields[columns_.at("nsec")], 1);
+      return requireStamp(columns_.reader(), columns_.field("sec"), kSecond) +
+             requireStamp(columns_.reader(), columns_.field("nsec"), 1);
     }
-    const std::string& field = fields[columns_.at("stamp")];
+    const std::string& field = columns_.field("stamp");
     if (!unit_) unit_ = unitOf(field);
-    return requireStamp(reader_, field, *unit_);
+    return requireStamp(columns_.reader(), field, *unit_);
   }
 
   Stamp unitOf(const std::string& field) {
-    const std::string& unit = units_.at("stamp");
+    const std::string unit = unitIn("stamp");
     if (unit == "ns") return 1;
     if (unit == "us") return 1'000;
     if (unit == "ms") return 1'000'000;
     return unit == "s" ? kSecond : unitBySize(field, file_.notes);
   }
 
-  LineReader reader_;
+  NamedColumns columns_;
+  bool is_matrix_;
+  std::map<std::string, double> radians_;  ///< of a unit of an angle's column
   PoseFile& file_;
-  ColumnPlaces columns_;
-  std::map<std::string, std::string> units_;
-  std::size_t width_ = 0;
   std::optional<Stamp> unit_;
 };
 

@@ -1,6 +1,8 @@
 #include "pcrb_core/datasets/pose_file.hpp"
 
 #include <cmath>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "datasets/log_rows.hpp"
@@ -210,6 +212,12 @@ const char* toString(PoseFormat format) {
   return kNames[static_cast<std::size_t>(format)];
 }
 
+std::size_t PoseFile::repeated() const {
+  std::set<std::tuple<Stamp, std::size_t, std::string>> keys;
+  for (const FilePose& pose : poses) keys.emplace(pose.stamp, pose.index, pose.name);
+  return poses.size() - keys.size();
+}
+
 Trajectory PoseFile::trajectory(const std::string& name) const {
   if (key != PoseKey::kStamp) {
     throw InvalidFile(name, 0, std::string("poses without timestamps (") + toString(format) + ")",
@@ -235,6 +243,12 @@ PoseFile parsePoseFile(std::string_view text, const std::string& name,
     throw InvalidFile(name, 0, "no pose", std::string("rows of ") + toString(file.format));
   }
   return file;
+}
+
+TrajectoryFile parseTrajectory(std::string_view text, const std::string& name,
+                               std::optional<PoseFormat> format) {
+  const PoseFile file = parsePoseFile(text, name, format);
+  return {file.trajectory(name), file.notes};
 }
 
 }  // namespace pcrb

@@ -1,13 +1,10 @@
 #include "pcrb_core/datasets/tum.hpp"
 
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <utility>
 
-#include "datasets/log_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {
@@ -35,19 +32,6 @@ Stamp requireStamp(const LineReader& reader, std::string_view word) {
   return *stamp;
 }
 
-/// Names the trajectories of other formats that are met in place of TUM's.
-void refuseOtherTrajectories(const LineReader& reader, std::string_view line) {
-  const std::string expected = "timestamp tx ty tz qx qy qz qw";
-  if (line.find(',') != std::string_view::npos) {
-    reader.fail(inQuotes(line) + ", with commas as EuRoC's trajectories have them",
-                expected + ", separated by blanks (evo_traj euroc FILE --save_as_tum)");
-  }
-  std::vector<double> numbers;
-  if (parseNumbers(line, Separator::kBlanks, numbers) && numbers.size() == 12) {
-    reader.fail("12 numbers, a row of KITTI's trajectories, which have no timestamps", expected);
-  }
-}
-
 bool staysBelow(std::string_view path) {
   if (path.empty() || path.front() == '/' || path.find('\\') != std::string_view::npos) {
     return false;
@@ -61,26 +45,6 @@ bool staysBelow(std::string_view path) {
 }
 
 }  // namespace
-
-Trajectory parseTumTrajectory(std::string_view text, const std::string& name) {
-  const std::string expected = "timestamp tx ty tz qx qy qz qw";
-  std::vector<StampedPose> poses;
-  LineReader reader(text, name);
-  std::string_view line;
-  while (nextRow(reader, line)) {
-    refuseOtherTrajectories(reader, line);
-    const Stamp stamp = requireStamp(reader, takeWord(line));
-    const auto n = requireNumbers(reader, line, Separator::kBlanks, 7, expected);
-    const Eigen::Quaterniond rotation(n[6], n[3], n[4], n[5]);
-    // Four decimals leave a norm within 2e-4 of 1; anything far from it is no rotation.
-    if (std::abs(rotation.norm() - 1.0) > 0.01) {
-      reader.fail("a quaternion of norm " + formatShortest(rotation.norm()), "1");
-    }
-    poses.push_back({stamp, makeTransform({n[0], n[1], n[2]}, rotation)});
-  }
-  if (poses.empty()) throw InvalidFile(name, 0, "no pose", "rows '" + expected + "'");
-  return Trajectory(std::move(poses));
-}
 
 std::vector<TumImage> parseTumImageList(std::string_view text, const std::string& name) {
   std::vector<TumImage> images;

@@ -151,5 +151,31 @@ TEST(PoseFile, TheLastOfTwoPosesOfAStampCounts) {
   EXPECT_EQ(poses.nearest(0).T_world_body.translation().x(), 2.0);
 }
 
+TEST(PoseFile, CountsThePosesThatALaterOneReplacesInEveryFormat) {
+  const std::string block = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+  for (const std::string& text :
+       {std::string("5 1 0 0 0 0 0 1\n5.0 2 0 0 0 0 0 1\n"),
+        "7 " + kMatrix + "\n7 " + kMatrix + "\n",
+        std::string("1403636579763555584,1,2,3,1,0,0,0\n1403636579763555584,1,2,4,1,0,0,0\n"),
+        "3 3 9\n" + block + "3 3 9\n" + block,
+        std::string("file,x,y,z,roll,pitch,yaw\na,1,2,3,0,0,0\na,1,2,4,0,0,0\n")}) {
+    EXPECT_EQ(parse(text).repeated(), 1u) << text;
+  }
+  EXPECT_EQ(parse(kMatrix + "\n" + kMatrix + "\n").repeated(), 0u);
+}
+
+TEST(PoseFile, TimestampsMayBeScientific) {
+  const auto stamps = [](const std::string& text) {
+    std::vector<Stamp> found;
+    for (const FilePose& pose : parse(text).poses) found.push_back(pose.stamp);
+    return found;
+  };
+  EXPECT_EQ(stamps("1.403636579763555584e+09 1 2 3 0 0 0 1\n"), std::vector<Stamp>{kFirst});
+  EXPECT_EQ(stamps("1.403636579763555584e+18,1,2,3,1,0,0,0\n"), std::vector<Stamp>{kFirst});
+  EXPECT_EQ(stamps("timestamp [ns],x,y,z,qx,qy,qz,qw\n1.403636579763555584e+18,1,2,3,0,0,0,1\n"),
+            std::vector<Stamp>{kFirst});
+  EXPECT_EQ(stamps("1.403636579763555584e9 " + kMatrix + "\n"), std::vector<Stamp>{kFirst});
+}
+
 }  // namespace
 }  // namespace pcrb

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "pcrb_core/datasets/cloud_file.hpp"
 #include "pcrb_core/datasets/eth.hpp"
 #include "pcrb_core/datasets/kaist.hpp"
 #include "pcrb_core/datasets/planetary.hpp"
+#include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
@@ -41,6 +43,16 @@ std::vector<double> numbersOf(const Trajectory& trajectory) {
   for (const Stamp stamp : {trajectory.firstStamp(), trajectory.lastStamp()}) {
     const auto pose = numbersOf(trajectory.nearest(stamp).T_world_body);
     numbers.insert(numbers.end(), pose.begin(), pose.end());
+  }
+  return numbers;
+}
+
+std::vector<double> posesOf(const std::string& text) {
+  std::vector<double> numbers;
+  for (const FilePose& pose : parsePoseFile(text, "file").poses) {
+    numbers.push_back(static_cast<double>(pose.stamp));
+    const auto matrix = numbersOf(pose.T_world_body);
+    numbers.insert(numbers.end(), matrix.begin(), matrix.end());
   }
   return numbers;
 }
@@ -90,7 +102,7 @@ std::vector<Format> formats() {
       {"planetary pose", "1 0 0 1\n0 1 0 2\n0 0 1 3\n0 0 0 1\n",
        [](const std::string& text) { return numbersOf(parsePlanetaryPose(text, "file")); }},
       {"TUM trajectory", "# t x y z qx qy qz qw\n1.5 1 2 3 0 0 0 1\n1.6 1 2 4 0 0 0 -1\n",
-       [](const std::string& text) { return numbersOf(parseTumTrajectory(text, "file")); }},
+       [](const std::string& text) { return numbersOf(parseTrajectory(text, "file").trajectory); }},
       {"TUM images", "1311878220.25 depth/1.png\n1311878221.25 depth/2.png\n",
        [](const std::string& text) {
          std::vector<double> numbers;
@@ -109,6 +121,26 @@ std::vector<Format> formats() {
        }},
       {"KAIST calibration", "RPY: 1 2 3\nR: 1 0 0 0 1 0 0 0 1\nT: 0.5 -1 2\n",
        [](const std::string& text) { return numbersOf(parseKaistCalibration(text, "file")); }},
+      {"KITTI poses", "1 0 0 1 0 1 0 2 0 0 1 3\n1 0 0 1 0 1 0 2 0 0 1 4\n", posesOf},
+      {"EuRoC poses",
+       "#timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z\n1403636579763555584,1,2,3,1,0,0,0\n",
+       posesOf},
+      {"log of poses", "0 0 1\n1 0 0 1\n0 1 0 2\n0 0 1 3\n0 0 0 1\n", posesOf},
+      {"named poses", "file, x, y, z, roll, pitch, yaw_deg\na.ply, 1, 2, 3, 0, 0, 90\n", posesOf},
+      {"ETH protocol",
+       "reading, reference, iT00, iT01, iT02, iT03, iT10, iT11, iT12, iT13, iT20, iT21, iT22, "
+       "iT23, "
+       "iT30, iT31, iT32, iT33\nHokuyo_1.csv, Hokuyo_0.csv, " +
+           rows,
+       [](const std::string& text) {
+         return numbersOf(parseEthProtocol(text, "file").at(0).T_reference_reading);
+       }},
+      {"ply",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+       "property float z\nend_header\n1 2 3\n",
+       [](const std::string& text) {
+         return numbersOf(parsePly(text, OriginPoints::kKeep, "file").points);
+       }},
       {"KAIST trajectory",
        "1519102894479453000,1,0,0,5,0,1,0,6,0,0,1,7\n"
        "1519102894489453000,1,0,0,5,0,1,0,6,0,0,1,8\n",
@@ -129,6 +161,12 @@ std::string replaced(const std::string& text, const std::string& what, const std
 std::string inUtf16(const std::string& text) {
   std::string result;
   for (const char c : text) result += {c, '\0'};
+  return result;
+}
+
+std::string inBigEndianUtf16(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += {'\0', c};
   return result;
 }
 
@@ -168,6 +206,9 @@ TEST(TextLayer, NamesWhatIsThereInPlaceOfData) {
       {"found UTF-16 text, expected UTF-8",
        [](const std::string& text) { return "\xFF\xFE" + inUtf16(text); }},
       {"found UTF-16 text, expected UTF-8", inUtf16},
+      {"found UTF-16 text, expected UTF-8",
+       [](const std::string& text) { return "\xFE\xFF" + inBigEndianUtf16(text); }},
+      {"found UTF-16 text, expected UTF-8", inBigEndianUtf16},
       {"found lone carriage returns as line ends",
        [](const std::string& text) { return replaced(text, "\n", "\r"); }},
       {"found an HTML page, expected data",
@@ -176,6 +217,10 @@ TEST(TextLayer, NamesWhatIsThereInPlaceOfData) {
        }},
       {"found an HTML page, expected data",
        [](const std::string&) { return std::string("<HTML>\n<body>404</body></HTML>\n"); }},
+      {"found a page of XML, expected data",
+       [](const std::string&) {
+         return std::string("<?xml version=\"1.0\"?>\n<!DOCTYPE html>\n<html>");
+       }},
       {"found a Git LFS pointer, expected the file that it stands for",
        [](const std::string&) {
          return std::string(

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pcrb_core/datasets/tum.hpp"
+#include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb {
@@ -35,7 +35,7 @@ constexpr const char* kEstimate =
     "1000000004.0 8.294679 -1.181824 0.135982 0.061760 -0.111553 0.699830 0.702837\n";
 
 Poses posesOf(const char* text) {
-  const Trajectory trajectory = parseTumTrajectory(text, "text");
+  const Trajectory trajectory = parseTrajectory(text, "text").trajectory;
   Poses poses;
   for (int i = 0; i < 9; ++i) {
     poses.push_back(trajectory.nearest(1000000000 * kSecond + i * kSecond / 2).T_world_body);

@@ -24,4 +24,8 @@ std::vector<SeriesRun> readSeries(const std::string& folder);
 /// The text of that file.
 std::string formatSeries(const std::vector<SeriesRun>& runs);
 
+/// The first line of a scored sequence's scans.csv, which score_poses writes and the report reads.
+constexpr const char* kScansHeader =
+    "scan,stamp,error,rotation_error_rad,translation_error_m,error_or_last_pose";
+
 }  // namespace pcrb_tools

@@ -106,6 +106,30 @@ CLI::Option* addThreadsOption(CLI::App& app, int& threads) {
       ->capture_default_str();
 }
 
+CLI::Option* addSensorInBodyOption(CLI::App& app, std::optional<pcrb::Transform>& T_body_sensor,
+                                   const std::string& otherwise) {
+  const auto take = [&T_body_sensor](const std::vector<double>& n) {
+    T_body_sensor =
+        pcrb::makeTransform({n[0], n[1], n[2]}, Eigen::Quaterniond(n[6], n[3], n[4], n[5]));
+  };
+  return app
+      .add_option_function<std::vector<double>>(
+          "--sensor-in-body", take,
+          "x y z qx qy qz qw of the sensor where poses are those of a body [" + otherwise + "]")
+      ->expected(7);
+}
+
+CLI::Option* addPoseFormatOption(CLI::App& app, std::optional<pcrb::PoseFormat>& format) {
+  std::map<std::string, pcrb::PoseFormat> formats;
+  for (const auto known :
+       {pcrb::PoseFormat::kTum, pcrb::PoseFormat::kKitti, pcrb::PoseFormat::kEuroc,
+        pcrb::PoseFormat::kKaist, pcrb::PoseFormat::kLog, pcrb::PoseFormat::kCsv}) {
+    formats[pcrb::toString(known)] = known;
+  }
+  return addChoice(app, "--pose-format", format, formats,
+                   "format of a text of poses [by its first rows]");
+}
+
 bool isKept(const pcrb::DerivedFile& output, bool force) {
   if (output.isUpToDate()) {
     std::cerr << output.path() << ": complete and unchanged, kept" << std::endl;

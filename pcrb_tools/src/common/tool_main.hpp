@@ -3,9 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
+#include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/io/derived_file.hpp"
+#include "pcrb_core/transform.hpp"
 
 namespace pcrb_tools {
 
@@ -32,6 +35,14 @@ std::string withHomeFolder(const std::string& word);
 
 /// Adds `--jobs` (`--threads`), by default one per processor.
 CLI::Option* addThreadsOption(CLI::App& app, int& threads);
+
+/// Adds `--sensor-in-body x y z qx qy qz qw`.
+/// @param otherwise  in the help, what holds without it
+CLI::Option* addSensorInBodyOption(CLI::App& app, std::optional<pcrb::Transform>& T_body_sensor,
+                                   const std::string& otherwise);
+
+/// Adds `--pose-format`, of a text of poses.
+CLI::Option* addPoseFormatOption(CLI::App& app, std::optional<pcrb::PoseFormat>& format);
 
 /// Whether an output is complete and unchanged, which is said on standard error: then a tool has
 /// nothing to do.

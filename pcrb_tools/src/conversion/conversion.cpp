@@ -31,12 +31,11 @@ pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t 
 
 }  // namespace
 
-void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion) {
+void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion,
+                   const std::vector<std::string>& notes) {
   conversion.setPoseStamps(trajectory.stamps());
-  if (trajectory.duplicates() > 0) {
-    conversion.note(std::to_string(trajectory.duplicates()) +
-                    " poses have the stamp of a later one and were not used");
-  }
+  conversion.noteRepeatedPoses(trajectory.duplicates());
+  for (const std::string& note : notes) conversion.note(note);
 }
 
 std::string poseText(const pcrb::Transform& pose) {
@@ -182,6 +181,12 @@ void Conversion::requireClouds() const {
 void Conversion::noteTimeJump() {
   if (!went_back_) note("the stamps went back: what was published again was converted once");
   went_back_ = true;
+}
+
+void Conversion::noteRepeatedPoses(std::size_t count) {
+  if (count == 0) return;
+  note(std::to_string(count) +
+       " poses have the stamp of a later one, or its scan, and were not used");
 }
 
 void Conversion::summarize() {

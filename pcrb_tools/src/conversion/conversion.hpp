@@ -74,6 +74,9 @@ class Conversion {
 
   void note(const std::string& text) { report_.notes.push_back(text); }
 
+  /// Notes, unless there is none, how many poses were left out, as a later one has their stamp.
+  void noteRepeatedPoses(std::size_t count);
+
   /// Notes, once, that the stamps of a stream jumped back.
   void noteTimeJump();
 
@@ -109,9 +112,10 @@ class Conversion {
   WorkerPool workers_;  // last: its threads end before what they use
 };
 
-/// Tells a conversion of the poses of a ground truth: their stamps, and how many were not used, as
-/// a later one has their stamp.
-void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion);
+/// Tells a conversion of the poses of a ground truth: their stamps, how many were not used, as a
+/// later one has their stamp, and what was concluded from their file.
+void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion,
+                   const std::vector<std::string>& notes = {});
 
 /// A pose for fingerprints: equal texts mean equal bits.
 std::string poseText(const pcrb::Transform& pose);

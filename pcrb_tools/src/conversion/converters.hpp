@@ -67,7 +67,8 @@ double maxRate(const TumOptions& options, TumInput input);
 struct TumRequest : ConversionRequest {
   TumRequest() { data_set = "tum"; }
 
-  std::string poses;  ///< ground-truth file; empty: beside the bag, or in the log
+  std::string poses;  ///< ground truth in any pcrb::PoseFormat with timestamps; empty: beside the
+                      ///< bag, or in the log
   TumOptions options;
 };
 

@@ -10,6 +10,7 @@
 #include "conversion/converters.hpp"
 #include "conversion/kaist_stream.hpp"
 #include "conversion/tum_stream.hpp"
+#include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_server/node_main.hpp"
 
@@ -91,10 +92,10 @@ void subscribeToTum(const TumOptions& options, TumStream& stream, LiveInput& inp
 
 ConversionReport convertLive(const TumRequest& request, const LiveOptions& options,
                              const pcrb::ShutdownRequest& shutdown) {
-  const pcrb::Trajectory trajectory =
-      pcrb::parseTumTrajectory(pcrb::FileBytes(request.poses).text(), request.poses);
+  const auto [trajectory, notes] =
+      pcrb::parseTrajectory(pcrb::FileBytes(request.poses).text(), request.poses);
   Conversion conversion(asLive(request, options), request.sequence, 0);
-  announcePoses(trajectory, conversion);
+  announcePoses(trajectory, conversion, notes);
   TumStream stream(trajectory, request.options, request.options.input, kLiveIdentity, conversion);
   LiveInput input;
   subscribeToTum(request.options, stream, input);

@@ -9,6 +9,7 @@
 #include "conversion/log_files.hpp"
 #include "conversion/raw_scans.hpp"
 #include "conversion/tum_stream.hpp"
+#include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 
@@ -64,8 +65,6 @@ TumInput chooseInput(const TumOptions& options, const BagMessages& bags) {
   return bags.count({options.cloud_topic}) > 0 ? TumInput::kClouds : TumInput::kDepth;
 }
 
-namespace fs = std::filesystem;
-
 constexpr const char* kListFile = "depth.txt";
 constexpr const char* kGroundTruthFile = "groundtruth.txt";
 constexpr double kPngUnits = 5000.0;  ///< a metre in the data set's PNGs
@@ -80,12 +79,12 @@ std::size_t requireOne(const LogFiles& files, const std::string& name) {
   return found.front();
 }
 
-pcrb::Trajectory readTrajectory(const LogFiles& files, const TumRequest& request) {
+pcrb::TrajectoryFile readTrajectory(const LogFiles& files, const TumRequest& request) {
   if (!request.poses.empty()) {
-    return pcrb::parseTumTrajectory(pcrb::FileBytes(request.poses).text(), request.poses);
+    return pcrb::parseTrajectory(pcrb::FileBytes(request.poses).text(), request.poses);
   }
   const std::size_t index = requireOne(files, kGroundTruthFile);
-  return pcrb::parseTumTrajectory(files.text(index), files.all()[index].path());
+  return pcrb::parseTrajectory(files.text(index), files.all()[index].path());
 }
 
 /// The folder of the log: `rgbd_dataset_freiburg3_…`, from inside an archive or from its path.
@@ -141,9 +140,9 @@ ConversionReport convertImages(const TumRequest& request) {
     return file.fileName() == kListFile || file.fileName() == kGroundTruthFile;
   });
   const std::size_t list = requireOne(files, kListFile);
-  const pcrb::Trajectory trajectory = readTrajectory(files, request);
+  const auto [trajectory, notes] = readTrajectory(files, request);
   Conversion conversion(request, tumSequenceOf(request, files.all()[list]), 0);
-  announcePoses(trajectory, conversion);
+  announcePoses(trajectory, conversion, notes);
   TumScanSelector selector(trajectory, request.options, maxRate(request.options, TumInput::kDepth),
                            conversion);
   const pcrb::Intrinsics intrinsics = request.options.intrinsics.value_or(pcrb::Intrinsics());
@@ -160,8 +159,7 @@ ConversionReport convertImages(const TumRequest& request) {
 ConversionReport convertTumBags(const TumRequest& request) {
   const BagMessages bags(request.inputs);
   const std::string poses = posePath(request);
-  const pcrb::Trajectory trajectory =
-      pcrb::parseTumTrajectory(pcrb::FileBytes(poses).text(), poses);
+  const auto [trajectory, notes] = pcrb::parseTrajectory(pcrb::FileBytes(poses).text(), poses);
   const TumInput input = chooseInput(request.options, bags);
   const std::string topic =
       input == TumInput::kClouds ? request.options.cloud_topic : request.options.depth_topic;
@@ -175,7 +173,7 @@ ConversionReport convertTumBags(const TumRequest& request) {
   Conversion conversion(
       request, request.sequence.empty() ? pcrb::tumSequenceName(log_name) : request.sequence,
       total);
-  announcePoses(trajectory, conversion);
+  announcePoses(trajectory, conversion, notes);
   TumStream stream(trajectory, request.options, input, bags.identity(), conversion);
   if (input == TumInput::kClouds) {
     convertClouds(request.options, bags, stream);

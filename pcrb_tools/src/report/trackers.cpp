@@ -4,7 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "pcrb_core/datasets/tum.hpp"
+#include "common/series_file.hpp"
+#include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
@@ -16,9 +17,7 @@ namespace pcrb_tools {
 namespace {
 
 constexpr double kTrackerDegree = 57.29577951308232;  // per rad
-constexpr const char* kScansHeader =
-    "scan,stamp,error,rotation_error_rad,translation_error_m,error_or_last_pose";
-constexpr std::size_t kMapSquares = 4000;  // drawn at most
+constexpr std::size_t kMapSquares = 4000;             // drawn at most
 
 double finiteField(const pcrb::LineReader& lines, const std::string& field) {
   const auto value = pcrb::parseDouble(field);
@@ -57,7 +56,7 @@ void readScans(const std::string& path, Tracker& tracker, std::vector<pcrb::Stam
 
 pcrb::Poses readPath(const std::string& path, const std::vector<pcrb::Stamp>& stamps) {
   const pcrb::FileBytes file(path);
-  const pcrb::Trajectory trajectory = pcrb::parseTumTrajectory(file.text(), path);
+  const pcrb::Trajectory trajectory = pcrb::parseTrajectory(file.text(), path).trajectory;
   pcrb::Poses poses;
   for (const pcrb::Stamp stamp : stamps) {
     const pcrb::StampedPose& pose = trajectory.nearest(stamp);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/run/offline_run.hpp"
 #include "pcrb_core/transform.hpp"
 
@@ -12,9 +14,10 @@ namespace pcrb_tools {
 
 /// Where the poses to score are.
 struct PoseSource {
-  std::string path;               ///< a bag (`.bag`), or a text of poses
-  std::string topic;              ///< of a bag
-  std::string map_frame = "map";  ///< in which the poses of a bag must be
+  std::string path;                          ///< a bag (`.bag`), or a text of poses
+  std::string topic;                         ///< of a bag
+  std::string map_frame = "map";             ///< in which the poses of a bag must be
+  std::optional<pcrb::PoseFormat> format{};  ///< of a sequence's text; nothing = by its rows
 };
 
 /// What `score_poses PROBLEM_FILE` is asked for.

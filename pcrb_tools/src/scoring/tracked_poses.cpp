@@ -46,10 +46,11 @@ class ScanStamps {
   std::map<std::string, pcrb::Stamp> by_stem_;
 };
 
-pcrb::Trajectory trajectoryOfText(const std::string& path, const pcrb::ScanList& list,
+pcrb::Trajectory trajectoryOfText(const PoseSource& source, const pcrb::ScanList& list,
                                   std::vector<std::string>& notes) {
-  const pcrb::FileBytes bytes(path);
-  const pcrb::PoseFile file = pcrb::parsePoseFile(bytes.text(), path);
+  const std::string& path = source.path;
+  const pcrb::PoseFile file =
+      pcrb::parsePoseFile(pcrb::FileBytes(path).text(), path, source.format);
   notes.insert(notes.end(), file.notes.begin(), file.notes.end());
   const ScanStamps stamps(list);
   std::vector<pcrb::StampedPose> poses;
@@ -97,8 +98,14 @@ pcrb::Trajectory trajectoryOfBag(const TrackingOptions& options) {
 
 pcrb::Trajectory readTrackedPoses(const TrackingOptions& options, const pcrb::ScanList& list,
                                   std::vector<std::string>& notes) {
-  return isBag(options.poses.path) ? trajectoryOfBag(options)
-                                   : trajectoryOfText(options.poses.path, list, notes);
+  pcrb::Trajectory trajectory = isBag(options.poses.path)
+                                    ? trajectoryOfBag(options)
+                                    : trajectoryOfText(options.poses, list, notes);
+  if (trajectory.duplicates() > 0) {
+    notes.push_back(std::to_string(trajectory.duplicates()) +
+                    " poses have the stamp of a later one, or its scan, and were not used");
+  }
+  return trajectory;
 }
 
 }  // namespace pcrb_tools

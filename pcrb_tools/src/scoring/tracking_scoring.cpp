@@ -12,6 +12,7 @@
 #include "common/process.hpp"
 #include "common/progress.hpp"
 #include "common/sequence_paths.hpp"
+#include "common/series_file.hpp"
 #include "pcrb_core/datasets/cloud_file.hpp"
 #include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/datasets/stamp_mismatch.hpp"
@@ -92,7 +93,7 @@ Matched match(const std::vector<TrackedScan>& scans) {
 
 /// One line per scan; without a pose its fields are empty.
 std::string formatScansCsv(const std::vector<TrackedScan>& scans) {
-  std::string text = "scan,stamp,error,rotation_error_rad,translation_error_m,error_or_last_pose\n";
+  std::string text = kScansHeader + std::string("\n");
   for (const TrackedScan& scan : scans) {
     text += scan.name + ',' + pcrb::formatStamp(scan.stamp);
     if (scan.error) {
@@ -196,16 +197,11 @@ pcrb::ScanList listOf(const TrackingOptions& options) {
   return list;
 }
 
-pcrb::DatasetCloud readScan(const TrackingOptions& options, const std::string& name) {
-  const std::string path = options.folder + "/" + name;
-  pcrb::DatasetCloud cloud = pcrb::readPcd(path);
-  if (!cloud.hasViewpoint()) {
-    throw pcrb::InvalidFile(
-        path, 0, "no VIEWPOINT",
-        "the sensor's true pose (the identity needs the header's comment `# VIEWPOINT is "
-        "the sensor's pose`)");
-  }
-  return cloud;
+[[noreturn]] void refuseWithoutViewpoint(const std::string& path) {
+  throw pcrb::InvalidFile(
+      path, 0, "no VIEWPOINT",
+      "the sensor's true pose (the identity needs the header's comment `# VIEWPOINT is "
+      "the sensor's pose`)");
 }
 
 /// One scan against a pose, both relative to an origin near the scan.
@@ -249,17 +245,18 @@ class TopView {
   std::set<std::pair<double, double>> squares_;
 };
 
-/// The scans without poses, and their clouds' files.
+/// The scans and their true poses; no estimate yet.
 std::vector<TrackedScan> readTruth(const TrackingOptions& options, const pcrb::ScanList& list) {
   std::vector<TrackedScan> scans;
   for (const auto& [stamp, name] : list.scans) {
     TrackedScan scan;
     scan.name = name;
     scan.stamp = stamp;
-    if (options.largest_offset > 0.0) {
-      scan.truth = readScan(options, name).viewpoint;
-      scan.truth.translation() -= list.local_origin;
-    }
+    const std::string path = options.folder + "/" + name;
+    const auto viewpoint = pcrb::readViewpoint(path);
+    if (!viewpoint) refuseWithoutViewpoint(path);
+    scan.truth = *viewpoint;
+    scan.truth.translation() -= list.local_origin;
     scans.push_back(std::move(scan));
   }
   return scans;
@@ -268,10 +265,8 @@ std::vector<TrackedScan> readTruth(const TrackingOptions& options, const pcrb::S
 void track(const TrackingOptions& options, const pcrb::ScanList& list,
            const pcrb::Trajectory& trajectory, TrackedScan& scan,
            std::optional<pcrb::Transform>& last, TopView& view) {
-  const pcrb::DatasetCloud cloud = readScan(options, scan.name);
+  const pcrb::DatasetCloud cloud = pcrb::readPcd(options.folder + "/" + scan.name);
   view.add(cloud, list.local_origin);
-  scan.truth = cloud.viewpoint;
-  scan.truth.translation() -= list.local_origin;
   const pcrb::StampedPose& nearest = trajectory.nearest(scan.stamp);
   if (std::abs(nearest.stamp - scan.stamp) <= pcrb::toStamp(options.max_difference)) {
     scan.T_map_sensor = nearest.T_world_body * options.T_body_sensor;

@@ -90,6 +90,22 @@ TEST_F(TumConversion, CloudsOfABagArePlacedByTheInterpolatedPoseAndNamedByTheirS
   EXPECT_LT((result.viewpoint.translation() - naiveWorld(0, 0, 0)).norm(), 1e-9);
 }
 
+TEST_F(TumConversion, PosesMayComeInAnotherFormatOfTrajectories) {
+  pcrb_test::BagWriter(bag()).add(kTopic,
+                                  makeCloud(headerAt(kSecond, kNano, kFrame), {0.5f, 0.25f, 2.f}));
+  TumRequest other = request(bag());
+  other.poses = folder_.file("truth.csv");  // EuRoC's
+  pcrb_test::writeFile(other.poses,
+                       "#timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z\n"
+                       "1311878220300000000,1,2,3,1,0,0,0\n"
+                       "1311878220400000000,2,2,3,0.70710678118654752,0,0,0.70710678118654752\n");
+  convertTum(other);
+  expectPoint(cloud(), 0, 0.5, 0.25, 2.0);
+  pcrb_test::writeFile(other.poses, "1 0 0 1 0 1 0 2 0 0 1 3\n");  // KITTI's
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertTum(other),
+                    "truth.csv: found poses without timestamps (kitti), expected timestamps");
+}
+
 TEST_F(TumConversion, FieldsAreFoundByNameWhateverHeightAndRowStepSay) {
   pcrb_test::BagWriter(bag()).add(
       kTopic, makeCloud(headerAt(kSecond, kNano, kFrame), {0.5f, 0.25f, 2.f, -1.f, 3.f, 4.f},

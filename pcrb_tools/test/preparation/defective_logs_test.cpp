@@ -100,7 +100,8 @@ std::vector<Defect> tumDefects() {
   const auto defect = defectsOf("tum", "pioneer_slam", "tum/rgbd_dataset_freiburg2_pioneer_slam");
   return {
       defect("TumPoseCutShort", "-groundtruth.txt",
-             replacingLine(5, "1311877977.6 0.1 0.2 0.3 0 0 1"), ":5: found 6 numbers"),
+             replacingLine(5, "1311877977.6 0.1 0.2 0.3 0 0 1"),
+             ":5: found '1311877977.6 0.1 0.2 0.3 0 0 1' (7 fields)"),
       defect("TumQuaternionOfNormZero", "-groundtruth.txt",
              replacingLine(5, "1311877977.6 0.1 0.2 0.3 0 0 0 0"), ":5: "),
       defect("TumStampThatIsNoNumber", "-groundtruth.txt",

@@ -92,6 +92,16 @@ TEST_F(ProtocolImportTest, ScansInTheWorldsFrameAreMovedByTheInitialTransformIts
   EXPECT_EQ(problems[0].overlap, 1.0);
 }
 
+TEST_F(ProtocolImportTest, ColumnsMayBeCalledAsTheirAuthorsPageSays) {
+  std::string header = kHeader;
+  header.replace(0, std::string("reading, reference").size(), "reference_name, reading_name");
+  const auto problems =
+      import(header + rowOf("Hokuyo_1.csv", "Hokuyo_2.csv", pcrb::Transform::Identity()));
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].source, "PointCloud2.pcd");
+  EXPECT_EQ(problems[0].target, "PointCloud1.pcd");
+}
+
 TEST_F(ProtocolImportTest, SaysWhatIsWrong) {
   const pcrb::Transform T = pcrb::Transform::Identity();
   PCRB_EXPECT_ERROR(pcrb::Error, import(kHeader + rowOf("Hokuyo_7.csv", "Hokuyo_1.csv", T)),
@@ -102,7 +112,7 @@ TEST_F(ProtocolImportTest, SaysWhatIsWrong) {
                     import(kHeader + rowOf("Hokuyo_0.csv", "PointCloud1.csv", T)),
                     "found scans in two frames");
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, import("reading, reference\nHokuyo_0.csv, Hokuyo_1.csv\n"),
-                    "no column t00 among reading, reference");
+                    "found the columns reading, reference, expected columns reading");
   pcrb::DatasetCloud cloud;
   cloud.points.emplace_back(0, 0, 0);
   pcrb::writePcd(folder_.file("root/eth/apartment/PointCloud0.pcd"), cloud);

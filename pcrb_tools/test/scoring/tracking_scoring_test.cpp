@@ -57,7 +57,7 @@ class TrackingScoring : public ::testing::Test {
         cloud.points.emplace_back(cloud.viewpoint * point);
       }
       std::filesystem::create_directories(folder_.file("root/own/yard"));
-      const auto stamp = static_cast<pcrb::Stamp>(pcrb_test::scanTime(k).toNSec());
+      const auto stamp = pcrb::stampOf(pcrb_test::scanTime(k));
       pcrb::writePcd(folder_.file("root/own/yard/" + pcrb::formatStamp(stamp) + ".pcd"), cloud);
     }
     options_.folder = folder_.file("root/own/yard");
@@ -106,7 +106,7 @@ TEST_F(TrackingScoring, TakesEveryFormatOfTrajectories) {
                            q.x(), q.y(), q.z()}) {
       pose += "," + pcrb::formatShortest(n);
     }
-    const auto stamp = static_cast<pcrb::Stamp>(pcrb_test::scanTime(k).toNSec());
+    const auto stamp = pcrb::stampOf(pcrb_test::scanTime(k));
     csv += pcrb::formatStamp(stamp) + ".bin" + pose + "\n";
     euroc += std::to_string(stamp) + pose + "\n";
   }
@@ -114,6 +114,14 @@ TEST_F(TrackingScoring, TakesEveryFormatOfTrajectories) {
   expectPerfect(score(csv, "poses.csv"));
   expectPerfect(score(euroc, "euroc.csv"));
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, score(kitti + kitti), "found a pose of scan 20");
+}
+
+TEST_F(TrackingScoring, TakesAFormatForWhatItIsSaidToBe) {
+  options_.poses.format = pcrb::PoseFormat::kKitti;
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, score(tumText(0)),
+                    "expected the 12 numbers of a matrix's first three rows");
+  options_.poses.format = pcrb::PoseFormat::kTum;
+  expectPerfect(score(tumText(0)));
 }
 
 TEST_F(TrackingScoring, TakesAPathAndTfOfABag) {
@@ -183,7 +191,10 @@ TEST_F(TrackingScoring, SaysWhyNoScanHasAPose) {
 }
 
 TEST_F(TrackingScoring, TheLastOfTwoPosesOfAScanCounts) {
-  expectPerfect(score("1500000000.0 9 9 9 0 0 0 1\n" + tumText(0)));
+  const std::string summary = score("1500000000.0 9 9 9 0 0 0 1\n" + tumText(0));
+  expectPerfect(summary);
+  EXPECT_NE(summary.find("note: 1 poses have the stamp of a later one, or its scan"),
+            std::string::npos);
 }
 
 }  // namespace

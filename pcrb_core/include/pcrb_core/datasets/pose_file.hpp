@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,9 @@ struct PoseFile {
   std::vector<FilePose> poses;
   std::vector<std::string> notes;  ///< what was concluded, e.g. a unit from the timestamps' size
 
+  /// Poses with the key of a later one, which counts.
+  std::size_t repeated() const;
+
   /// In time.
   /// @throws InvalidFile  where they have no timestamps; `name` stands for the path.
   Trajectory trajectory(const std::string& name) const;
@@ -59,5 +63,15 @@ struct PoseFile {
 /// @throws InvalidFile  with line, what was found and what was expected.
 PoseFile parsePoseFile(std::string_view text, const std::string& name,
                        std::optional<PoseFormat> format = std::nullopt);
+
+/// Poses of a text in time, and what was concluded from it.
+struct TrajectoryFile {
+  Trajectory trajectory;
+  std::vector<std::string> notes;
+};
+
+/// parsePoseFile() of a text that must have timestamps.
+TrajectoryFile parseTrajectory(std::string_view text, const std::string& name,
+                               std::optional<PoseFormat> format = std::nullopt);
 
 }  // namespace pcrb

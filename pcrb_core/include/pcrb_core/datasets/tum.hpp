@@ -6,18 +6,12 @@
 #include <vector>
 
 #include "pcrb_core/datasets/sensor_scan.hpp"
-#include "pcrb_core/datasets/trajectory.hpp"
+#include "pcrb_core/datasets/stamp.hpp"
 
 namespace pcrb {
 
-// The TUM RGB-D sequences (Sturm et al., IROS 2012).
-
-/// Reads `…-groundtruth.txt`: `#` comments, `timestamp tx ty tz qx qy qz qw`; poses of the colour
-/// camera's optical frame in the world. Quaternions are normalised.
-///
-/// @param name  stands for the path in messages
-/// @throws InvalidFile  with line, what was found and what was expected; if there is no pose.
-Trajectory parseTumTrajectory(std::string_view text, const std::string& name);
+// The TUM RGB-D sequences (Sturm et al., IROS 2012). Their ground truth is read by
+// parseTrajectory().
 
 /// A row of `depth.txt`.
 struct TumImage {
