@@ -10,7 +10,6 @@ struct Options {
   pcrb_tools::OwnRequest request;
   pcrb_tools::PrepareOptions prepare;
   pcrb_tools::DatasetParameters parameters;
-  std::vector<double> extrinsics;
   double max_gap = 0.25;
 };
 
@@ -41,14 +40,7 @@ void addSources(CLI::App& app, Options& options) {
   app.add_option("--poses", request.poses,
                  "text of poses: tum, kitti, euroc, kaist, log (3DMatch), or csv with names of "
                  "columns [the only one beside the clouds]");
-  pcrb_tools::addChoice<pcrb::PoseFormat>(app, "--pose-format", request.pose_format,
-                                          {{"tum", pcrb::PoseFormat::kTum},
-                                           {"kitti", pcrb::PoseFormat::kKitti},
-                                           {"euroc", pcrb::PoseFormat::kEuroc},
-                                           {"kaist", pcrb::PoseFormat::kKaist},
-                                           {"log", pcrb::PoseFormat::kLog},
-                                           {"csv", pcrb::PoseFormat::kCsv}},
-                                          "format of that text [by its first rows]");
+  pcrb_tools::addPoseFormatOption(app, request.pose_format);
   app.add_option(
       "--times", request.times,
       "text of a timestamp in seconds for each cloud of a folder [times.txt beside them, "
@@ -63,9 +55,7 @@ void addMeaning(CLI::App& app, Options& options) {
                  "tf frame that the clouds are wanted in [that of the poses]");
   app.add_option("--body-frame", request.body_frame,
                  "tf frame that the poses are of [that of the messages, else the clouds']");
-  app.add_option("--sensor-in-body", options.extrinsics,
-                 "x y z qx qy qz qw of the sensor where poses are those of a body [from tf]")
-      ->expected(7);
+  pcrb_tools::addSensorInBodyOption(app, request.T_body_sensor, "from tf");
   app.add_option("--time-offset", request.time_offset,
                  "seconds that are added to the timestamps of the poses")
       ->capture_default_str();
@@ -116,11 +106,6 @@ void addPreparation(CLI::App& app, Options& options) {
 
 /// Puts together what the options say.
 void settle(Options& options) {
-  const std::vector<double>& e = options.extrinsics;
-  if (!e.empty()) {
-    options.request.T_body_sensor =
-        pcrb::makeTransform({e[0], e[1], e[2]}, Eigen::Quaterniond(e[6], e[3], e[4], e[5]));
-  }
   options.request.max_gap = pcrb::toStamp(options.max_gap);
   options.request.threads = options.prepare.threads;
   options.prepare.root = options.request.root;

@@ -106,10 +106,10 @@ class OwnBag {
 
   Placement byFile() {
     const pcrb::FileBytes bytes(request_.poses);
-    const pcrb::PoseFile file =
-        pcrb::parsePoseFile(bytes.text(), request_.poses, request_.pose_format);
-    notes_.insert(notes_.end(), file.notes.begin(), file.notes.end());
-    return complete(placementBy(file.trajectory(request_.poses), request_), "", "");
+    const auto [trajectory, notes] =
+        pcrb::parseTrajectory(bytes.text(), request_.poses, request_.pose_format);
+    notes_.insert(notes_.end(), notes.begin(), notes.end());
+    return complete(placementBy(trajectory, request_), "", "");
   }
 
   Placement byTopic(const std::string& topic) {
@@ -153,7 +153,7 @@ class OwnBag {
           "--world-frame: found poses without a frame, expected those of "
           "a topic or of tf");
     }
-    tree_.lookup(wanted, world, placement.stamps.front(), request_.max_gap);  // connected
+    tree_.lookup(wanted, world, 0, request_.max_gap);  // connected
     placement.world = [this, wanted, world](pcrb::Stamp stamp) {
       return tree_.lookup(wanted, world, stamp, request_.max_gap);
     };
@@ -181,7 +181,7 @@ class OwnBag {
   }
 
   void add(const sensor_msgs::PointCloud2::ConstPtr& cloud, OwnScans& scans) const {
-    const pcrb::Stamp stamp = stampOf(cloud->header.stamp);
+    const pcrb::Stamp stamp = pcrb::stampOf(cloud->header.stamp);
     const std::string frame = pcrb::withoutSlash(cloud->header.frame_id);
     const std::string name = pcrb::formatStamp(stamp) + ".pcd";
     if (frame != cloud_frame_) {

@@ -77,48 +77,50 @@ class OwnFiles {
   std::optional<pcrb::PoseFile> findPoses() {
     if (!request_.poses.empty()) {
       pose_path_ = request_.poses;
-      return parse(pcrb::FileBytes(pose_path_).text());
+      return noted(pcrb::parsePoseFile(pcrb::FileBytes(pose_path_).text(), pose_path_,
+                                       request_.pose_format));
     }
-    std::vector<std::size_t> found;
-    for (const std::size_t index : files_.find(isPoseText)) {
-      if (isTrajectory(index)) found.push_back(index);
-    }
-    if (found.size() == 1) {
-      pose_path_ = files_.all()[found.front()].path();
-      return parse(files_.text(found.front()));
-    }
-    if (found.empty() && request_.in_world) return std::nullopt;
     std::vector<std::string> paths;
-    for (const std::size_t index : found) paths.push_back(files_.all()[index].path());
-    throw pcrb::InvalidFile(request_.inputs.front(), 0,
-                            found.empty() ? "no poses" : "poses in " + pcrb::joined(paths),
-                            "one file of poses (--poses), or clouds that are in one frame already "
-                            "(--in-world)");
+    std::optional<pcrb::PoseFile> found;
+    for (const std::size_t index : files_.find(isPoseText)) {
+      auto poses = posesIn(index);
+      if (!poses) continue;
+      found = std::move(poses);
+      paths.push_back(files_.all()[index].path());
+    }
+    if (paths.size() == 1) {
+      pose_path_ = paths.front();
+      return noted(std::move(*found));
+    }
+    if (paths.empty() && request_.in_world) return std::nullopt;
+    throw pcrb::InvalidFile(
+        request_.inputs.front(), 0,
+        paths.empty() ? "no poses" + defects_ : "poses in " + pcrb::joined(paths),
+        "one file of poses (--poses), or clouds that are in one frame already "
+        "(--in-world)");
   }
 
-  bool isTrajectory(std::size_t index) const {
-    if (files_.all()[index].fileName() == kTimesFile) return false;
+  /// Nothing for another text, e.g. a calibration.
+  std::optional<pcrb::PoseFile> posesIn(std::size_t index) {
+    if (files_.all()[index].fileName() == kTimesFile) return std::nullopt;
     try {
-      pcrb::parsePoseFile(files_.text(index), files_.all()[index].path(), request_.pose_format);
-      return true;
-    } catch (const pcrb::InvalidFile&) {
-      return false;  // another text, e.g. a calibration
+      return pcrb::parsePoseFile(files_.text(index), files_.all()[index].path(),
+                                 request_.pose_format);
+    } catch (const pcrb::InvalidFile& error) {
+      defects_ += std::string("; ") + error.what();
+      return std::nullopt;
     }
   }
 
-  pcrb::PoseFile parse(std::string_view text) {
-    pcrb::PoseFile file = pcrb::parsePoseFile(text, pose_path_, request_.pose_format);
+  pcrb::PoseFile noted(pcrb::PoseFile file) {
     notes_.insert(notes_.end(), file.notes.begin(), file.notes.end());
     return file;
   }
 
   std::vector<FileScan> plan(const pcrb::PoseFile& poses, Conversion& conversion) {
-    if (request_.deskew && poses.key != pcrb::PoseKey::kStamp) {
-      throw pcrb::InvalidFile(pose_path_, 0, "poses without timestamps",
-                              "timestamps, which --deskew needs");
-    }
-    return poses.key == pcrb::PoseKey::kStamp ? planByStamp(poses, conversion)
-                                              : planByKey(poses, conversion);
+    if (poses.key == pcrb::PoseKey::kStamp) return planByStamp(poses, conversion);
+    requireTimestamps(request_, pose_path_);
+    return planByKey(poses, conversion);
   }
 
   std::vector<FileScan> planByStamp(const pcrb::PoseFile& poses, Conversion& conversion) {
@@ -126,6 +128,7 @@ class OwnFiles {
     const std::vector<pcrb::Stamp> stamps = stampsOfClouds();
     ScanThinner thinner(request_, conversion);
     conversion.setPoseStamps(placement_.stamps);
+    conversion.noteRepeatedPoses(placement_.repeated);
     std::vector<FileScan> work;
     for (std::size_t i = 0; i != clouds_.size(); ++i) {
       ScanPlace place;
@@ -184,6 +187,7 @@ class OwnFiles {
   std::vector<FileScan> planByKey(const pcrb::PoseFile& poses, Conversion& conversion) const {
     const std::vector<const pcrb::FilePose*> found =
         poses.key == pcrb::PoseKey::kName ? findByName(poses) : findByIndex(poses);
+    conversion.noteRepeatedPoses(poses.repeated());
     ScanThinner thinner(request_, conversion);
     std::vector<FileScan> work;
     for (std::size_t i = 0; i != clouds_.size(); ++i) {
@@ -243,7 +247,8 @@ class OwnFiles {
   }
 
   FileScan planScan(std::size_t file, const ScanPlace& place, pcrb::Stamp stamp) const {
-    return {file, stemOfCloud(files_.all()[file].fileName()) + ".pcd", originText(request_, place),
+    return {file, stemOfCloud(files_.all()[file].fileName()) + ".pcd",
+            originText(request_, placement_, place),
             [this, place, stamp](std::string_view bytes, const std::string& path) {
               return placeOwnScan(request_, placement_, place, stamp,
                                   pcrb::parseCloudFile(bytes, path, request_.files), path);
@@ -253,7 +258,7 @@ class OwnFiles {
   /// A cloud that is where it belongs, with the viewpoint that it has.
   FileScan planPlaced(std::size_t file) const {
     return {file, stemOfCloud(files_.all()[file].fileName()) + ".pcd",
-            originText(request_, {}) + " as it is",
+            originText(request_, placement_, {}) + " as it is",
             [this](std::string_view bytes, const std::string& path) {
               pcrb::SensorScan scan = pcrb::parseCloudFile(bytes, path, request_.files);
               ConvertedScan converted;
@@ -271,6 +276,7 @@ class OwnFiles {
   std::string pose_path_;
   Placement placement_;
   std::vector<std::string> notes_;
+  std::string defects_;  ///< why texts are no poses
 };
 
 }  // namespace

@@ -19,13 +19,19 @@ std::string sequenceOf(const OwnRequest& request);
 
 /// How a scan is moved and made a cloud, for every kind of log.
 /// @param stamp  of the scan; used for deskewing only
-/// @throws InvalidFile  if it is to be deskewed and its points have no times.
+/// @throws InvalidFile  if it is to be deskewed and its points have no times, or some in another
+///                      unit.
 ConvertedScan placeOwnScan(const OwnRequest& request, const Placement& placement,
                            const ScanPlace& place, pcrb::Stamp stamp, pcrb::SensorScan scan,
                            const std::string& name);
 
+/// @throws InvalidFile  if the request asks for something that poses without timestamps cannot
+/// give.
+void requireTimestamps(const OwnRequest& request, const std::string& poses);
+
 /// What a cloud depends on beside its scan, for fingerprints.
-std::string originText(const OwnRequest& request, const ScanPlace& place);
+std::string originText(const OwnRequest& request, const Placement& placement,
+                       const ScanPlace& place);
 
 /// Takes the scans of bags in their order and makes clouds of those that are kept.
 class OwnScans {

@@ -2,8 +2,22 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
+
+#include "pcrb_core/io/file_bytes.hpp"
 
 namespace pcrb_tools {
+namespace {
+
+std::string identityOfPoses(const pcrb::Trajectory& trajectory) {
+  pcrb::Fnv1a hash;
+  for (const pcrb::Stamp stamp : trajectory.stamps()) {
+    hash.add(std::to_string(stamp) + poseText(trajectory.nearest(stamp).T_world_body));
+  }
+  return ' ' + std::to_string(hash.value());
+}
+
+}  // namespace
 
 pcrb::PoseLookup Placement::sensorAt(pcrb::Stamp stamp) const {
   pcrb::PoseLookup pose = body(stamp);
@@ -40,14 +54,18 @@ Placement placementBy(pcrb::PoseAt body, std::vector<pcrb::Stamp> stamps,
   for (pcrb::Stamp& stamp : placement.stamps) stamp += offset;
   placement.in_world = request.in_world;
   placement.T_body_sensor = request.T_body_sensor.value_or(pcrb::Transform::Identity());
+  placement.identity = std::to_string(offset);
   return placement;
 }
 
 Placement placementBy(const pcrb::Trajectory& trajectory, const OwnRequest& request) {
   const auto poses = std::make_shared<const pcrb::Trajectory>(trajectory);
-  return placementBy(
+  Placement placement = placementBy(
       [poses, gap = request.max_gap](pcrb::Stamp stamp) { return poses->interpolate(stamp, gap); },
-      poses->stamps(), request);
+      trajectory.stamps(), request);
+  placement.repeated = trajectory.duplicates();
+  if (request.deskew) placement.identity += identityOfPoses(trajectory);
+  return placement;
 }
 
 ScanThinner::ScanThinner(const OwnRequest& request, Conversion& conversion)

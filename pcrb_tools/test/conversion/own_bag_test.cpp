@@ -207,6 +207,34 @@ TEST_F(OwnBagConversion, SaysWhyNoScanHasAPose) {
   EXPECT_EQ(convertOwn(late).written.size(), 4u);
 }
 
+TEST_F(OwnBagConversion, MovesTheTimeOfTfAndOfATopicAlike) {
+  OwnBagWriter(bag_).addTf().addOdometry().addExtrinsics();
+  OwnRequest late = request();
+  late.time_offset = 0.1;  // a scan has the pose that was recorded for the one before
+  late.tf = {"map", "base_link"};
+  EXPECT_EQ(convertOwn(late).written.size(), 3u);
+  expectPlaced(2, bodyAt(1) * sensorInBody());
+  late.tf.clear();
+  late.pose_topic = "/odom";
+  convertOwn(late);
+  expectPlaced(2, bodyAt(1) * sensorInBody());
+  late.times = "times.txt";
+  PCRB_EXPECT_ERROR(pcrb::InvalidParameter, convertOwn(late),
+                    "--times: found bags, expected files of clouds");
+}
+
+TEST_F(OwnBagConversion, DropsACloudOfNoPoints) {
+  OwnBagWriter(bag_).addOdometry().addExtrinsics().add("/velodyne_points", 5, [] {
+    sensor_msgs::PointCloud2 empty;
+    empty.header = pcrb_test::header("velodyne", 0);
+    empty.header.stamp += ros::Duration(0.05);
+    return empty;
+  }());
+  const ConversionReport report = convertOwn(request());
+  EXPECT_EQ(report.written.size(), 4u);
+  EXPECT_EQ(report.scans_read, 5u);
+}
+
 TEST_F(OwnBagConversion, DeskewsPointsByTheirTimes) {
   {
     rosbag::Bag bag(bag_, rosbag::bagmode::Write);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 
 #include "conversion/own_request.hpp"
 #include "pcrb_core/error.hpp"
@@ -120,6 +121,10 @@ TEST_F(OwnFilesConversion, CloudsInOneFrameNeedNoPoses) {
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
                     "found no poses, expected one file of poses (--poses), or clouds that are in "
                     "one frame already (--in-world)");
+  write("poses.txt", "\xFF\xFE" + std::string("1\0", 2));
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(request()),
+                    "found no poses; " + folder_.file("scans/poses.txt") + ":1: found UTF-16 text");
+  std::filesystem::remove(folder_.file("scans/poses.txt"));
   OwnRequest placed = request();
   placed.in_world = true;
   convertOwn(placed);
@@ -149,6 +154,94 @@ TEST_F(OwnFilesConversion, ListsTheFilesThatCouldBeThePoses) {
   convertOwn(chosen);
   const auto cloud = pcrb::readPcd(folder_.file("root/mine/scans/a.pcd"));
   EXPECT_LT((cloud.points[0] - Eigen::Vector3d(0, 2, 3)).norm(), 1e-9);
+}
+
+/// Three formats of a scan that sees (1, 2, 3) at its stamp and 0.1 s later.
+TEST_F(OwnFilesConversion, DeskewsCloudsOfEveryFormatThatHasTimes) {
+  const std::string fields =
+      "{'descr': [('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('time', '<f4')], "
+      "'fortran_order': False, 'shape': (2,)}\n";
+  write("1500000000.000000000.npy", std::string("\x93NUMPY\x01\x00", 8) +
+                                        static_cast<char>(fields.size()) + '\0' + fields +
+                                        floats({1, 2, 3, 0, 1, 2, 3, 0.1F}));
+  write("1500000000.100000000.pcd",
+        "VERSION .7\nFIELDS x y z t\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\n"
+        "HEIGHT 1\nPOINTS 2\nDATA ascii\n1 2 3 0\n1 2 3 100000000\n");
+  write("1500000000.200000000.ply",
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+        "property float z\nproperty double timestamp\nend_header\n1 2 3 1500000000.2\n"
+        "1 2 3 1500000000.3\n");
+  const std::string q = " 2 3 0 0 0.70710678118654752 0.70710678118654752\n";
+  // The clock of the poses is a minute behind that of the scans.
+  write("groundtruth.txt", "1499999940.0 0" + q + "1499999940.2 1" + q + "1499999940.4 2" + q);
+  OwnRequest deskewed = request();
+  deskewed.deskew = true;
+  deskewed.time_offset = 60.0;
+  EXPECT_EQ(convertOwn(deskewed).written.size(), 3u);
+  for (std::uint32_t k = 0; k != 3; ++k) {
+    const auto cloud = pcrb::readPcd(
+        folder_.file("root/mine/scans/1500000000." + std::to_string(k) + "00000000.pcd"));
+    ASSERT_EQ(cloud.points.size(), 2u);
+    for (std::uint32_t i = 0; i != 2; ++i) {
+      EXPECT_LT((cloud.points[i] - bodyAt(k + i) * Eigen::Vector3d(1, 2, 3)).norm(), 1e-6) << k;
+    }
+  }
+  // Another pose within the scan makes another cloud, though its own stamp has the same one.
+  write("groundtruth.txt", "1499999940.0 0" + q + "1499999940.1 0.5" + q + "1499999940.2 3" + q +
+                               "1499999940.4 2" + q);
+  convertOwn(deskewed);
+  const auto again = pcrb::readPcd(folder_.file("root/mine/scans/1500000000.100000000.pcd"));
+  EXPECT_NEAR(again.points[1].x() - again.points[0].x(), 2.5, 1e-6);
+}
+
+TEST_F(OwnFilesConversion, RefusesTimesOfPointsInAnotherUnit) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float time\nend_header\n";
+  const std::string q = " 2 3 0 0 0 1\n";
+  write("groundtruth.txt", "1500000000.0 0" + q + "1500000100.0 1" + q);
+  OwnRequest deskewed = request();
+  deskewed.deskew = true;
+  deskewed.max_gap = 200 * pcrb::kSecond;
+  write("1500000000.000000000.ply", head + "1 2 3 0\n1 2 3 99\n");  // ms
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(deskewed), "found points over 99 s");
+  write("1500000000.000000000.ply", head + "1 2 3 0\n1 2 3 0.0001\n");
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(deskewed), "found points over 1e-04 s");
+}
+
+TEST_F(OwnFilesConversion, PrintsHowManyPosesALaterOneReplaced) {
+  write("000000.ply", kPly);
+  write("traj.log",
+        "0 0 1\n1 0 0 9\n0 1 0 9\n0 0 1 9\n0 0 0 1\n0 0 1\n0 -1 0 0\n1 0 0 2\n"
+        "0 0 1 3\n0 0 0 1\n");
+  const std::string note = "1 poses have the stamp of a later one, or its scan, and were not used";
+  EXPECT_NE(formatReport(convertOwn(request())).find(note), std::string::npos);
+  expectPlaced("000000", 0);
+  std::filesystem::remove(folder_.file("scans/traj.log"));
+  write("1500000000.000000000.ply", kPly);
+  std::filesystem::remove(folder_.file("scans/000000.ply"));
+  write("poses.txt",
+        "1500000000 9 9 9 0 0 0 1\n1500000000 0 2 3 0 0 0.70710678118654752 "
+        "0.70710678118654752\n");
+  EXPECT_NE(formatReport(convertOwn(request())).find(note), std::string::npos);
+  expectPlaced("1500000000.000000000", 0);
+}
+
+TEST_F(OwnFilesConversion, PassesOverNoOptionInSilence) {
+  write("000000.ply", kPly);
+  write("poses.txt", matrixRow(0) + "\n");
+  OwnRequest asked = request();
+  asked.pose_topic = "/odom";
+  PCRB_EXPECT_ERROR(pcrb::InvalidParameter, convertOwn(asked),
+                    "--topic: found no bag, expected one in place of files of clouds");
+  asked = request();
+  asked.time_offset = 1.0;
+  PCRB_EXPECT_ERROR(
+      pcrb::InvalidFile, convertOwn(asked),
+      "found poses without timestamps, expected timestamps, which --time-offset needs");
+  asked = request();
+  asked.max_rate = 1.0;
+  PCRB_EXPECT_ERROR(pcrb::InvalidFile, convertOwn(asked), "which --max-rate needs");
 }
 
 TEST_F(OwnFilesConversion, ReadsCloudsFromAnArchive) {
