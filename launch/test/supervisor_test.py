@@ -67,10 +67,14 @@ class SupervisorTest(BridgeTestCase):
         self.assertGreaterEqual(len(self.processes(launch)), 2)
         self.assert_finished(launch, len(self.data.of('local', 'hall')))
 
-    def test_a_node_may_be_started_anew_for_each_problem(self):
-        launch = self.launch(restart='problem', subset=3)
-        self.assertEqual(len(self.processes(launch)), 3)
-        self.assertEqual([row['outcome'] for row in rows(self.path('run'))], ['replied'] * 3)
+    def test_a_node_may_be_started_anew_for_each_problem_and_is_not_started_before(self):
+        file = self.path('restart.yaml')
+        with open(file, 'w', encoding='utf-8') as out:
+            out.write('restart: problem\n')
+        for name, how in ('argument', {'restart': 'problem'}), ('file', {'bridge_parameters': file}):
+            launch = self.launch(run=self.path(name), subset=3, **how)
+            self.assertEqual(len(self.processes(launch)), 3, name)
+            self.assertEqual([row['outcome'] for row in rows(self.path(name))], ['replied'] * 3)
 
     def assert_every_problem_fails(self, **arguments):
         """Whatever the node dies of."""

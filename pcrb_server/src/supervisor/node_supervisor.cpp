@@ -30,6 +30,18 @@ std::string launchArgument(std::string word) {
   return is_plain ? word.replace(equals, 1, ":=") : word;
 }
 
+/// A node that reads its map when it starts must not do so before the bridge has written it.
+bool isStartedBy(const std::string& bridge) {
+  if (bridge.empty()) return false;
+  const std::string place = ros::names::resolve(bridge);
+  std::string restart = "never";
+  if (ros::param::get(place + "/bridge_parameters/restart", restart)) return restart != "never";
+  for (const char* group : {"", "/recipe/bridge"}) {
+    if (ros::param::get(place + group + "/restart", restart) && restart != "never") return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 const ParameterTable kSupervisorParameters{
@@ -39,7 +51,10 @@ const ParameterTable kSupervisorParameters{
      "blanks "
      "together; $NAME and ${NAME:-other} are "
      "variables of the environment"},
-    {"autostart", "true", "", "start at once; false: only on request"}};
+    {"autostart", "true", "", "start at once; false: only on request"},
+    {"bridge", "", "",
+     "name of a localization_bridge; one that starts the node anew (its restart, also that of its "
+     "recipe or file) starts it the first time, too"}};
 
 SupervisorParameters readSupervisorParameters() {
   NodeParameters reader(kSupervisorParameters);
@@ -68,7 +83,8 @@ SupervisorParameters readSupervisorParameters() {
       reader.addMistake("~args: found `" + word + "`, expected name=value");
     }
   }
-  parameters.autostart = reader.boolean("autostart");
+  const bool is_wanted_at_once = reader.boolean("autostart");
+  parameters.autostart = !isStartedBy(reader.string("bridge")) && is_wanted_at_once;
   reader.allowOwnParameter("provenance");
   reader.finish();
   return parameters;
