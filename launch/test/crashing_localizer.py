@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A localization node that ends at the first message of a kind: `~at`, `scan` or `initialpose`."""
+"""A localization node that ends at the first message of a kind: `~at`, `scan` or `initialpose`; it takes `~takes`, both by default."""
 import os
 
 import rospy
@@ -14,6 +14,8 @@ def end(_):
 if __name__ == '__main__':
     rospy.init_node('crashing_localizer')
     at = rospy.get_param('~at')
+    takes = rospy.get_param('~takes', 'scan initialpose').split()
     for topic, kind in ('scan', PointCloud2), ('initialpose', PoseWithCovarianceStamped):
-        rospy.Subscriber(topic, kind, end if at == topic else lambda message: None, queue_size=1)
+        if topic in takes:
+            rospy.Subscriber(topic, kind, end if at == topic else lambda message: None, queue_size=1)
     rospy.spin()

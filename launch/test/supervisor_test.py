@@ -92,6 +92,9 @@ class SupervisorTest(BridgeTestCase):
     def test_a_node_that_dies_of_every_initial_pose_does_so_too_beside_another_that_stays(self):
         self.assert_every_problem_fails(node_args='at=initialpose beside=true', subset=2)
 
+    def test_so_does_a_localizer_behind_a_filter_of_its_scans(self):
+        self.assert_every_problem_fails(node_args='at=initialpose filtered=true', subset=2)
+
     def test_a_node_that_does_not_come_ends_the_launch_when_its_limit_is_up(self):
         launch = self.launch(node_launch='', node_args='', connect_limit=1)
         launch.wait()

@@ -93,6 +93,7 @@ bool NodeMonitor::restart() {
 }
 
 bool NodeMonitor::isThere() const {
+  if (!inputs_.isScanTaken()) return false;
   const auto nodes = inputs_.nodes();
   return std::any_of(nodes.begin(), nodes.end(), [this](const auto& node) {
     const auto before = before_.find(node.first);
@@ -101,6 +102,8 @@ bool NodeMonitor::isThere() const {
 }
 
 void NodeMonitor::beginWatch() { at_start_ = inputs_.nodes(); }
+
+void NodeMonitor::extendWatch() { at_start_.merge(inputs_.nodes()); }
 
 void NodeMonitor::beginPlay() { processes_.usage(inputs_.allNodes()); }
 

@@ -60,6 +60,9 @@ class NodeMonitor {
   /// Call when the node is there: from now on it has the problem.
   void beginWatch();
 
+  /// Takes those that came since beginWatch() for under test, too.
+  void extendWatch();
+
   /// Whether the node has left since beginWatch().
   bool hasLeft() const;
 

@@ -131,6 +131,7 @@ void LocalizationBridge::sendInitialPose() {
   if (!history().was_waited_for_subscription) {  // subscriptions of a new node come one by one
     waitFor([this] { return inputs_.isInitialPoseTaken() || !isCurrent(); }, kInitialPoseLimit);
     history().was_waited_for_subscription = true;
+    monitor_.extendWatch();
   }
   pause(inputs_.timeToStop());
   inputs_.sendInitialPose(*pose);

@@ -108,11 +108,14 @@ std::map<std::string, int> RobotInputs::departures() const {
   const auto takers = scan_listeners_.departures();
   const auto others = initial_pose_listeners_.departures();
   auto nodes = withNames(takers, others);
-  return nodes.empty() ? takers : nodes;
+  if (!nodes.empty()) return nodes;
+  nodes = takers;  // a filter of the scans, with the localizer behind it
+  nodes.insert(others.begin(), others.end());
+  return nodes;
 }
 
 std::map<std::string, int> RobotInputs::nodes() const {
-  return withNames(departures(), scan_listeners_.names());
+  return withNames(departures(), allNodes());
 }
 
 std::set<std::string> RobotInputs::allNodes() const {

@@ -107,8 +107,8 @@ class RobotInputs {
   /// too far back are left out.
   void sendMotion();
 
-  /// Name of each node under test that ever took scans, and how often it has left: of those that
-  /// take the initial pose, too, if there are any; of all but the observers otherwise.
+  /// Name of each node under test, and how often it has left: of those that ever took scans and the
+  /// initial pose, if there are any; of all that took one of the two, but the observers, otherwise.
   std::map<std::string, int> departures() const;
 
   /// Those of them that are there now.
@@ -119,6 +119,7 @@ class RobotInputs {
 
   bool isObserver(const std::string& node) const { return scan_listeners_.isObserver(node); }
 
+  bool isScanTaken() const { return !scan_listeners_.names().empty(); }
   bool isInitialPoseTaken() const { return !initial_pose_listeners_.names().empty(); }
 
  private:
