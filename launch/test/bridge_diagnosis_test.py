@@ -16,7 +16,7 @@ DIAGNOSES = {
     'ahead': r'^stamp: \d+ poses? with the stamp of no scan, 0\.200 s later: set ~answer_delay:=0\.200$',
     'frame': r'^frame: \d+ poses?: tf does not connect the pose of `` in `world` with `base_link` and `map`$',
     'nan': r'^invalid: \d+ poses?: \S+/pose: .*(finite|quaternion)',
-    'silent': r'^silent: the node said nothing to \d+ scans?, and worked for \d+\.\d s: .*see what it printed$'}
+    'silent': r'^silent: the node said nothing to \d+ scans?, and worked for \d+\.\d s of \d+\.\d s: .*see what it printed$'}
 TOPIC = (r'the node said nothing to \d+ scans?: no node publishes \S+/robot/pose; poses are published on .*'
          r'/robot/somewhere \(geometry_msgs/PoseStamped by \S+/ill_mannered_localizer\).*: set ~pose_topic')
 

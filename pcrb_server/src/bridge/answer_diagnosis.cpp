@@ -89,8 +89,9 @@ NoAnswerCause causeOf(const Silence& silence, const std::string& scans) {
   return {"silent", nothing + (silence.cpu_time < 0.0
                                    ? ""
                                    : ", and worked for " + formatFixed(silence.cpu_time, 1) +
-                                         " s: it may wait for another input, or reject its own "
-                                         "results; see what it printed")};
+                                         " s of " + formatFixed(silence.elapsed, 1) +
+                                         " s: it may wait for another input or for a processor, or "
+                                         "reject its own results; see what it printed")};
 }
 
 std::string FailureLog::note(const NoAnswerCause& cause) {
