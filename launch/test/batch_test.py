@@ -153,6 +153,10 @@ class BatchTest(TestCase):
         self.assert_fails(batch, r'shard 0/1: 0 problems have a result; benchmark_server: .*`attic`', 'not complete')
         self.assertFalse(os.path.exists(os.path.join(self.run, 'summary.txt')))
 
+    def test_a_method_that_cannot_be_loaded_is_a_failure_that_says_why(self):
+        batch = self.batch('--jobs', '1', method='mine', plugin='/nowhere/libmine.so', subset=1)
+        self.assert_fails(batch, 'registration_node: 1 mistake in the parameters; plugin: cannot load /nowhere/libmine.so')
+
     def test_needs_no_network_but_loopback(self):
         if subprocess.run([*ISOLATED, 'true'], stderr=subprocess.DEVNULL).returncode != 0:
             self.skipTest('cannot take the network away here')

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The command pcrb: one grammar, everything checked before anything starts, runs with a master of their own, verdicts."""
+import contextlib
 import json
 import os
 import re
@@ -118,6 +119,19 @@ class PcrbCommandTest(TestCase):
         result = json.loads(again.stdout)
         self.assertEqual((result['status'], result['problems'], result['is_complete']), (0, len(rows(run)), True))
         self.assertEqual(result['sequences'][-1]['count'], len(rows(run)))
+
+    def test_on_a_terminal_the_line_of_progress_names_method_and_sequence(self):
+        mine, its = os.openpty()
+        command = [front_door(), 'run', '--root', self.data.root, '--run', self.path('run'), '--method', 'icp', '--sequences', 'kitchen']
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=its) as process:
+            os.close(its)
+            text = b''
+            with contextlib.suppress(OSError):  # the end of a terminal
+                while True:
+                    text += os.read(mine, 4096)
+            os.close(mine)
+        self.assertEqual(process.returncode, 0, text)
+        self.assertRegex(text.decode(), r'icp, kitchen: \d+/12 problems \(\d+ %\), [\d.]+ problems/s')
 
     def test_values_that_look_like_numbers_stay_text(self):
         for name in 'kitchen_local.txt', 'kitchen':

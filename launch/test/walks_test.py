@@ -54,8 +54,8 @@ catkin_make -C ws
 TABLE = '''
 pcrb run --root root --run in_cpp --client "rosrun my_client my_client" --sequences kitchen --subset 4
 pcrb paper --root root --run paper --method icp center --client "python3 $PWD/my_client.py" --sequences kitchen --subset 4 --no-figures
-pcrb paper --root root --run paper --method my_method --plugin "$PWD/ws/devel/lib/libmy_method.so" \\
-  --parameters "$PWD/ws/src/my_method/my_method.yaml" --sequences kitchen --subset 4 --no-figures
+pcrb paper --root root --run paper --method my_method --plugin ws/devel/lib/libmy_method.so \\
+  --parameters ws/src/my_method/my_method.yaml --sequences kitchen --subset 4 --no-figures
 pcrb report paper/icp paper/my_method "by centroid=paper/center" --output report --no-figures
 '''
 PAPER = '''\\documentclass{article}\\usepackage{booktabs}\\begin{document}

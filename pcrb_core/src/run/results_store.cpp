@@ -210,6 +210,12 @@ std::size_t ResultsStore::count() const {
   return static_cast<std::size_t>(row.integer(0));
 }
 
+std::string ResultsStore::newestSequence() const {
+  Statement row(impl_->database, "SELECT sequence FROM result ORDER BY finished DESC LIMIT 1",
+                "read the newest result");
+  return row.step() ? row.text(0) : "";
+}
+
 void ResultsStore::insert(const Result& result) {
   requireStorable(result, path());
   try {

@@ -33,6 +33,18 @@ std::vector<ScanRecord> someScans() {
   return {unanswered, answered};
 }
 
+TEST_F(ResultsStoreScansTest, KnowsTheSequenceOfItsNewestResult) {
+  ResultsStore store = writer();
+  EXPECT_EQ(store.newestSequence(), "");
+  for (const char* sequence : {"stairs", "apartment"}) {
+    Result result = fullResult("1");
+    result.key.sequence = sequence;
+    result.finished = 1.0 + static_cast<double>(store.count());
+    store.add(result);
+  }
+  EXPECT_EQ(store.newestSequence(), "apartment");
+}
+
 TEST_F(ResultsStoreScansTest, KeepsTheScansOfAResultToTheLastBit) {
   Result result = fullResult("1");
   result.scans = someScans();

@@ -74,15 +74,16 @@ void requireUtf8(const std::string& word) {
 
 std::string nameOf(const std::string& argument) { return argument.substr(0, argument.find(":=")); }
 
-/// Nodes have another working directory.
-std::string absoluteRoot(const std::string& argument) {
-  const std::string prefix = "root:=";
-  if (argument.rfind(prefix, 0) != 0) return argument;
-  const std::string root = argument.substr(prefix.size());
-  if (!fs::is_directory(root)) {
-    throw pcrb::InvalidParameter("root: found `" + root + "`, expected an existing folder");
+/// Nodes have another working directory. A library that is not there is looked for by the system.
+std::string withAbsolutePath(const std::string& argument) {
+  const std::string name = nameOf(argument);
+  if (name != "root" && name != "parameters" && name != "plugin") return argument;
+  const std::string path = argument.substr(std::min(argument.size(), name.size() + 2));
+  if (name == "root" && !fs::is_directory(path)) {
+    throw pcrb::InvalidParameter("root: found `" + path + "`, expected an existing folder");
   }
-  return prefix + fs::absolute(root).lexically_normal().string();
+  if (path.empty() || (name == "plugin" && !fs::exists(path))) return argument;
+  return name + ":=" + fs::absolute(path).lexically_normal().string();
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ std::vector<std::string> launchCommand(const BatchOptions& options) {
       throw pcrb::InvalidParameter("found `" + argument + "`, expected no " + name +
                                    ":=, which this tool gives itself (see --help)");
     }
-    command.push_back(absoluteRoot(argument));
+    command.push_back(withAbsolutePath(argument));
   }
   std::for_each(command.begin(), command.end(), requireUtf8);
   requireUtf8(options.run);

@@ -27,6 +27,7 @@ constexpr std::chrono::milliseconds kPoll{200};
 constexpr std::chrono::seconds kLockLimit{30};  // longer than a roslaunch takes to end its nodes
 constexpr std::chrono::seconds kInterruptLimit{25};  // roslaunch's own is 15 s, then 2 s
 constexpr std::chrono::seconds kTerminateLimit{5};
+constexpr std::size_t kLongestSubject = 24;  // letters
 
 /// The shards that this process is to see to, each until it is complete or has failed.
 class Batch {
@@ -55,22 +56,30 @@ class Batch {
   std::deque<Shard*> waiting_;
   std::vector<Shard*> running_;
   std::vector<std::string> defects_;
+  std::string subject_;
   Clock::time_point start_ = Clock::now();
   Progress progress_;
 };
 
-/// What is benchmarked, for people who watch: the method or the node, as far as arguments say it.
+/// What is benchmarked, for people who watch: the method or the node, as far as arguments say it,
+/// and short enough for a line of a terminal.
 std::string subjectOf(const BatchOptions& options) {
   for (const std::string prefix : {"client_command:=", "method:=", "node:=", "node_launch:="}) {
     for (const std::string& argument : options.arguments) {
-      if (argument.rfind(prefix, 0) == 0) return argument.substr(prefix.size());
+      if (argument.rfind(prefix, 0) != 0) continue;
+      const std::string subject = argument.substr(prefix.size());
+      return subject.size() <= kLongestSubject
+                 ? subject
+                 : "..." + subject.substr(subject.size() - kLongestSubject + 3);
     }
   }
   return "run";
 }
 
 Batch::Batch(const std::shared_ptr<const ShardSettings>& settings, const BatchOptions& options)
-    : jobs_(static_cast<std::size_t>(options.jobs)), progress_(subjectOf(options), "problems", 0) {
+    : jobs_(static_cast<std::size_t>(options.jobs)),
+      subject_(subjectOf(options)),
+      progress_(subject_, "problems", 0) {
   becomeSubreaper();
   for (int i = 0; i < settings->shards; ++i) {
     if (!options.only || *options.only == i) {
@@ -97,6 +106,7 @@ void Batch::run() {
     reap();
     showProgress();
   }
+  progress_.rename(subject_);
   progress_.finish();
   for (const auto& shard : shards_) {
     const std::string defect = shard->defect();
@@ -150,6 +160,8 @@ void Batch::showProgress() {
     // Sizes are one apart at most, so this is nearly right before all are known.
     total += shard->total() > 0 ? shard->total() : largest;
   }
+  const std::string sequence = running_.empty() ? "" : running_.front()->sequence();
+  if (!sequence.empty()) progress_.rename(subject_ + ", " + sequence);
   progress_.set(done, total);
 }
 

@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 5> kErrorPrefixes{
-    "benchmark_server: ", "localization_bridge: ", "node_supervisor: ", "cannot start",
-    "RLException"};
+constexpr std::array<const char*, 6> kErrorPrefixes{
+    "benchmark_server: ",  "localization_bridge: ", "node_supervisor: ",
+    "registration_node: ", "cannot start",          "RLException"};
 
 /// Whether roslaunch can write where it keeps files of its own: with HOME unset or read-only it
 /// cannot, and would end without a word.
@@ -132,6 +132,11 @@ std::size_t Shard::total() {
   return total_;
 }
 
+std::string Shard::sequence() {
+  open();
+  return store_ ? store_->newestSequence() : "";
+}
+
 bool Shard::isComplete() { return total() > 0 && done() >= total(); }
 
 std::string Shard::defect() {
@@ -143,15 +148,21 @@ std::string Shard::defect() {
   return silence.empty() ? "" : name() + ": " + silence + "; see " + logFile();
 }
 
-/// What a node said on standard error before it gave up, as the suite's nodes say it.
+/// What a node said on standard error before it gave up, as the suite's nodes say it: a line, and
+/// those below it that are indented.
 std::string Shard::lastError() const {
   std::ifstream log(logFile());
   log.seekg(log_start_);
   std::string line;
   std::string error;
+  bool goes_on = false;
   while (std::getline(log, line)) {
+    if (line.rfind("\033[", 0) == 0) line.erase(0, line.find('m') + 1);  // roslaunch's colours
     const auto begins = [&line](const char* start) { return line.rfind(start, 0) == 0; };
-    if (std::any_of(kErrorPrefixes.begin(), kErrorPrefixes.end(), begins)) error = line;
+    const bool is_error = std::any_of(kErrorPrefixes.begin(), kErrorPrefixes.end(), begins);
+    goes_on = is_error || (goes_on && begins("  "));
+    if (is_error) error = line;
+    if (goes_on && !is_error) error += ";" + line.substr(1);
   }
   return error.empty() ? "; see " + logFile() : "; " + error + " (" + logFile() + ")";
 }

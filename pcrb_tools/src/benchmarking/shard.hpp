@@ -54,6 +54,9 @@ class Shard {
   std::size_t total();
   bool isComplete();
 
+  /// Sequence of its newest result; empty where there is none.
+  std::string sequence();
+
   /// What is wrong with the shard as it is now, or nothing: problems without a result, a node that
   /// never answered.
   std::string defect();

@@ -104,6 +104,11 @@ void Progress::set(std::size_t done, std::size_t total) {
   show(false);
 }
 
+void Progress::rename(const std::string& what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_.what = what;
+}
+
 void Progress::note(const std::string& line) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_terminal_ && drawn_width_ > 0) {

@@ -49,6 +49,9 @@ class Progress {
   /// Sets how many units are done in all, kept ones included, for callers who are told totals.
   void set(std::size_t done, std::size_t total);
 
+  /// Says from now on that another thing is being done; counts and time go on.
+  void rename(const std::string& what);
+
   /// Shows a line of text without garbling the one that is being redrawn.
   void note(const std::string& line);
 

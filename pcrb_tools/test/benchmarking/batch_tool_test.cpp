@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "benchmarking/child_process.hpp"
@@ -44,6 +45,21 @@ TEST(LaunchArguments, AreRefusedWhereRoslaunchTakesNoSuchBytes) {
   options.arguments.pop_back();
   options.run = folder.file("caf\xe9");
   pcrb_test::expectError<pcrb::InvalidParameter>([&] { launchCommand(options); }, expected);
+}
+
+TEST(LaunchArguments, HaveAbsolutePathsSinceNodesStartElsewhere) {
+  const pcrb_test::TemporaryFolder folder;
+  BatchOptions options = optionsIn(folder.path());
+  const std::string here = std::filesystem::current_path().string();
+  const auto last = [&](const std::string& argument) {
+    options.arguments.push_back(argument);
+    return launchCommand(options).back();
+  };
+  EXPECT_EQ(last("parameters:=mine/my.yaml"), "parameters:=" + here + "/mine/my.yaml");
+  EXPECT_EQ(last("parameters:="), "parameters:=");
+  EXPECT_EQ(last("plugin:=libmine.so"), "plugin:=libmine.so");  // the system's loader finds it
+  EXPECT_EQ(last("plugin:=."),
+            "plugin:=" + std::filesystem::path(here + "/.").lexically_normal().string());
 }
 
 TEST(BatchConfiguration, GoesOnWithItsNumberOfShardsWhateverTheJobs) {

@@ -69,6 +69,16 @@ TEST_F(ProgressTest, RedrawsItsLineOnATerminalAndErasesLongerText) {
   EXPECT_EQ(out_.str(), "\r" + first + "\r" + second + blanks + "\r" + second + "\n");
 }
 
+TEST_F(ProgressTest, GoesOnCountingUnderAnotherName) {
+  Progress progress("icp", "problems", 10, out_, false, clock());
+  pass(5.0);
+  progress.add(5);
+  progress.rename("icp, apartment");
+  pass(5.0);
+  progress.add();
+  EXPECT_EQ(out_.str(), "icp, apartment: 6/10 problems (60 %), 0.60 problems/s, 7 s left\n");
+}
+
 TEST_F(ProgressTest, NotesDoNotMixWithTheLineBeingRedrawn) {
   Progress progress("x", "scans", 0, out_, true, clock());
   pass(1.0);

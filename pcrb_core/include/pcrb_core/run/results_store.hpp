@@ -82,6 +82,9 @@ class ResultsStore {
   /// Number of stored results.
   std::size_t count() const;
 
+  /// Sequence of the result that was stored last; empty where there is none.
+  std::string newestSequence() const;
+
   /// Keys of all stored results.
   std::set<ProblemKey> finished() const;
 
