@@ -176,8 +176,13 @@ ENVIRONMENT = '''\\begin{figure}[p]
 '''
 
 
+LETTERS = {'\\': '\\textbackslash{}', '~': '\\~{}', '^': '\\^{}', '<': '$<$', '>': '$>$', '|': '$|$',
+           **{c: '\\' + c for c in '_%&#${}'}}
+
+
 def latex(text):
-    return ''.join('\\' + c if c in '_%&#$' else c for c in text)
+    """A text as LaTeX reads it; letters that its usual fonts lack are `?`, as in the tables."""
+    return ''.join(LETTERS.get(c, c if ' ' <= c <= '\u017e' else '?') for c in text)
 
 
 def figures_of_trackers(trackers):
