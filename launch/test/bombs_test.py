@@ -136,18 +136,32 @@ class BombsTest(TestCase):
         self.explode('tgz of two PNGs of 8192 x 8192', 'pixels in .* bytes, expected at most', 'tum_to_pcd', archive, '--root', self.root,
                      '--sequence', 'yard', '--threads', '2')
 
-    def test_bag(self):
-        """rosbag decompresses a chunk whole, whatever it holds: twice the message's size is what it takes."""
+    def bag(self, points, claim=None):
+        """A bag of one cloud of zeros, packed; or not packed, and with another number of bytes said to be there."""
         path = os.path.join(self.folder, 'yard.bag')
-        cloud = PointCloud2(height=1, width=5000000, point_step=16, row_step=80000000, data=bytes(80000000))
+        size = 16 * points
+        cloud = PointCloud2(height=1, width=points, point_step=16, row_step=size, data=bytes(size))
         cloud.fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate('xyz')]
         cloud.header.stamp = rospy.Time(1311867000)
-        with rosbag.Bag(path, 'w', compression='bz2') as bag:
+        with rosbag.Bag(path, 'w', compression='none' if claim else 'bz2') as bag:
             bag.write('/cloud', cloud, cloud.header.stamp)
+        if claim:
+            with open(path, 'r+b') as file:
+                before = struct.pack('<III', 16, size, size)  # point_step, row_step, length of the data
+                content = file.read()
+                file.seek(content.index(before) + 8)
+                file.write(struct.pack('<I', claim))
         with open(os.path.join(self.folder, 'poses.txt'), 'w') as poses:
             poses.writelines(f'{1311866000 + i} 0 0 0 0 0 0 1\n' for i in range(2000))
-        self.explode('bag, 80 MB of zeros by bz2', 'no scan became a cloud', 'tum_to_pcd', path, '--root', self.root, '--threads', '2',
-                     '--poses', os.path.join(self.folder, 'poses.txt'), '--input', 'clouds', '--cloud-topic', '/cloud')
+        return [path, '--root', self.root, '--threads', '2', '--poses', os.path.join(self.folder, 'poses.txt'), '--input', 'clouds',
+                '--cloud-topic', '/cloud']
+
+    def test_bags(self):
+        """rosbag unpacks a chunk whole, whatever it holds: twice the message's size is what it takes, or nothing."""
+        self.explode('bag, 80 MB of zeros by bz2', 'no scan became a cloud', 'tum_to_pcd', *self.bag(5000000))
+        self.explode('bag, 160 MB of zeros by bz2', r'yard.bag: found a chunk that takes 32\d MB of memory .*expected at most 268 MB',
+                     'tum_to_pcd', *self.bag(10000000))
+        self.explode('bag, claims a cloud of 4 GB', 'yard.bag: damaged: Buffer Overrun', 'tum_to_pcd', *self.bag(1000, 2**32 - 1))
 
     def test_texts(self):
         with open(os.path.join(self.folder, 'yard_overlap.txt'), 'w') as matrix:

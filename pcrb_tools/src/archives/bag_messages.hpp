@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "archives/bounded_message.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb_tools {
@@ -23,7 +24,9 @@ bool areBags(const std::vector<std::string>& inputs);
 /// The messages of some topics of bags, in the order in which they were recorded.
 class BagMessages {
  public:
-  /// @throws InvalidFile  if a bag cannot be opened; a bag that was not closed is named as such.
+  /// @throws InvalidFile  if a bag cannot be opened; a bag that was not closed, is damaged, or has
+  /// a
+  ///                      chunk that memory has no room for is named as such.
   explicit BagMessages(const std::vector<std::string>& paths);
 
   std::size_t count(const std::vector<std::string>& topics) const;
@@ -48,17 +51,21 @@ class BagMessages {
   std::string identity_;
 };
 
-/// Makes sure that a bag was closed and is whole: its index begins where its header says and ends
-/// with the file. Reads a few bytes only of what comes before.
+/// The message as a type; null if it is of another.
 ///
-/// @throws InvalidFile  if it is no bag of ROS 1, was not closed, or is cut; it says which.
-void requireWholeBag(const std::string& path);
+/// Takes memory for what the message has, whatever it claims to have.
+/// @throws ros::serialization::StreamOverrunException  if it claims more.
+template <typename Message>
+typename Message::ConstPtr messageIf(const rosbag::MessageInstance& instance) {
+  const auto bounded = instance.instantiate<BoundedMessage<Message>>();
+  return bounded ? typename Message::ConstPtr(bounded, &bounded->message) : nullptr;
+}
 
 /// The message as a type.
 /// @throws InvalidFile  if it is of another type.
 template <typename Message>
 typename Message::ConstPtr messageAs(const rosbag::MessageInstance& instance) {
-  const auto message = instance.instantiate<Message>();
+  const auto message = messageIf<Message>(instance);
   if (!message) {
     throw pcrb::InvalidFile("topic " + instance.getTopic(), 0, instance.getDataType(),
                             ros::message_traits::DataType<Message>::value());

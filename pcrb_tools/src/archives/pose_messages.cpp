@@ -66,19 +66,19 @@ bool isPoseType(const std::string& type) {
 }
 
 std::vector<PoseMessage> posesOf(const rosbag::MessageInstance& message) {
-  if (const auto stamped = message.instantiate<geometry_msgs::PoseStamped>()) {
+  if (const auto stamped = messageIf<geometry_msgs::PoseStamped>(message)) {
     return {makePoseMessage(*stamped)};
   }
-  if (const auto stamped = message.instantiate<geometry_msgs::PoseWithCovarianceStamped>()) {
+  if (const auto stamped = messageIf<geometry_msgs::PoseWithCovarianceStamped>(message)) {
     return {{stamped->header, {}, stamped->pose}};
   }
-  if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) {
+  if (const auto odometry = messageIf<nav_msgs::Odometry>(message)) {
     return {{odometry->header, odometry->child_frame_id, odometry->pose}};
   }
-  if (const auto stamped = message.instantiate<geometry_msgs::TransformStamped>()) {
+  if (const auto stamped = messageIf<geometry_msgs::TransformStamped>(message)) {
     return {makePoseMessage(*stamped)};
   }
-  if (const auto path = message.instantiate<nav_msgs::Path>()) return makePoseMessages(*path);
+  if (const auto path = messageIf<nav_msgs::Path>(message)) return makePoseMessages(*path);
   throw pcrb::InvalidFile(message.getTopic(), 0, message.getDataType(), kPoseTypes);
 }
 

@@ -7,6 +7,7 @@
 
 #include "archives/archive_reader.hpp"
 #include "archives/bag_messages.hpp"
+#include "archives/bag_structure.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/derived_file.hpp"

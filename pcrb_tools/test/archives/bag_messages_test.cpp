@@ -5,6 +5,9 @@
 
 #include <filesystem>
 
+#include "archives/bag_structure.hpp"
+#include "pcrb_core/io/memory_budget.hpp"
+#include "support/bag_writer.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"
 #include "support/temporary_folder.hpp"
@@ -75,6 +78,75 @@ TEST_F(BagMessagesTest, ABagThatWasNotClosedIsNamed) {
   bytes.replace(field, 8, 8, '\0');
   pcrb_test::writeFile(path_, bytes);
   PCRB_EXPECT_ERROR(pcrb::InvalidFile, requireWholeBag(path_), "a bag that was not closed");
+}
+
+TEST_F(BagMessagesTest, AChunkThatMemoryHasNoRoomForIsRefusedBeforeItIsUnpacked) {
+  const std::string bomb = folder_.file("bomb.bag");
+  for (const auto compression : {rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    rosbag::Bag bag(bomb, rosbag::bagmode::Write);
+    bag.setCompression(compression);
+    std_msgs::String zeros;
+    zeros.data = std::string(4000000, '\0');
+    bag.write("/words", ros::Time(1, 0), zeros);
+    bag.close();
+    auto& budget = pcrb::MemoryBudget::ofProcess();
+    const std::size_t limit = budget.limit();
+    budget.setLimit(7000000);
+    PCRB_EXPECT_ERROR(
+        pcrb::InvalidFile, BagMessages({bomb}),
+        "a chunk that takes 9 MB of memory at byte 4117 of a bag, expected at most 7");
+    budget.setLimit(9000000);
+    EXPECT_EQ(BagMessages({bomb}).count({"/words"}), 1U);
+    budget.setLimit(limit);
+  }
+}
+
+/// The bag with other bytes behind the first of some.
+std::string withBytes(std::string bytes, const std::string& what, const std::string& instead) {
+  bytes.replace(bytes.find(what) + what.size(), instead.size(), instead);
+  return bytes;
+}
+
+TEST_F(BagMessagesTest, WhatRosbagWouldFollowOutOfTheFileIsRefused) {
+  const std::string bytes = pcrb_test::readFile(path_);
+  const std::string far(4, '\x7f');
+  const auto expect = [&](const std::string& damaged, const char* error) {
+    pcrb_test::writeFile(folder_.file("b.bag"), damaged);
+    PCRB_EXPECT_ERROR(pcrb::InvalidFile, BagMessages({folder_.file("b.bag")}), error);
+  };
+  expect(withBytes(bytes, "chunk_pos=", far), "cut or damaged");
+  expect(withBytes(bytes, "chunk_pos=", std::string("\x0d\0\0\0", 4)), "a record of another kind");
+  expect(withBytes(bytes, "size=", far), "found a chunk of");
+  const std::size_t index = bytes.find("op=\x04");  // of the records behind the chunk
+  const std::size_t count = bytes.rfind("count=", index) + 6;
+  expect(bytes.substr(0, count) + far + bytes.substr(count + 4), "in an index at byte");
+  const std::size_t first = bytes.find("ver=", index) + 8 + 4 + 8;  // its first message's place
+  expect(bytes.substr(0, first) + far + bytes.substr(first + 4), "a message behind the end");
+}
+
+TEST_F(BagMessagesTest, AListThatIsLongerThanItsMessageTakesNoMemory) {
+  const std::string bag = folder_.file("clouds.bag");
+  {
+    const auto header = pcrb_test::headerAt(1, 0, "lidar");
+    pcrb_test::BagWriter(bag).add("/cloud", pcrb_test::makeCloud(header, {1, 2, 3, 4, 5, 6}));
+  }
+  std::string bytes = pcrb_test::readFile(bag);
+  const auto read = [&] {
+    std::size_t points = 0;
+    BagMessages({bag}).forEach({"/cloud"}, [&](const rosbag::MessageInstance& message) {
+      points += messageAs<sensor_msgs::PointCloud2>(message)->width;
+    });
+    return points;
+  };
+  EXPECT_EQ(read(), 2U);
+  const std::string fields("\x04\0\0\0\x03\0\0\0rgb", 11);  // so many, and the first one's name
+  const std::string size("\x40\0\0\0\0\0\x80\x3f", 8);      // bytes of data, and the first float
+  for (const std::string& list : {fields, size}) {
+    std::string claim = bytes;
+    claim.replace(claim.find(list), 4, "\xff\xff\xff\x7f");
+    pcrb_test::writeFile(bag, claim);
+    PCRB_EXPECT_ERROR(pcrb::InvalidFile, read(), "damaged: Buffer Overrun");
+  }
 }
 
 }  // namespace
