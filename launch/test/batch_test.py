@@ -111,14 +111,17 @@ class BatchTest(TestCase):
         self.assertEqual(rows(self.shard(1))[:len(killed)], killed)
         wait_until(lambda: not processes_that_name(self.run), 'all processes have ended')
 
-    def test_nodes_whose_roslaunch_was_killed_are_ended_and_the_shard_is_incomplete(self):
+    def test_nodes_whose_roslaunch_or_its_guard_was_killed_are_ended_and_the_shard_is_incomplete(self):
         self.data = maths.make_data_set(self.path('large'), points=3000, perturbations=30)
-        batch = self.batch('--jobs', '1', method='gicp')
-        self.wait_for_rows_of_shard(0, 1)
-        roslaunch, = processes_that_name(f'run:={self.shard(0)}\0')
-        os.kill(roslaunch, signal.SIGKILL)
-        self.assert_fails(batch, r'shard 0/1: \d+ of 180 problems have a result', 'start this again')
-        self.assertEqual(processes_that_name(self.run), [])
+        for victim in '/roslaunch', '/guard_launch':
+            done = len(rows(self.shard(0))) if os.path.exists(self.shard(0)) else 0
+            batch = self.batch('--jobs', '1', method='gicp')
+            self.wait_for_rows_of_shard(0, done + 1)
+            of_shard = set(processes_that_name(f'run:={self.shard(0)}\0'))
+            process, = of_shard.intersection(processes_that_name(f'{victim}\0'))
+            os.kill(process, signal.SIGKILL)
+            self.assert_fails(batch, r'shard 0/1: \d+ of 180 problems have a result', 'start this again')
+            self.assertEqual(processes_that_name(self.run), [])
 
     def test_shards_have_map_files_of_their_own_or_are_refused(self):
         """A node that reads another shard's map would localize well, in the wrong place."""

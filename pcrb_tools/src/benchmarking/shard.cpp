@@ -33,6 +33,11 @@ bool isRosHomeWritable() {
   return ::access(folder.c_str(), W_OK) == 0;
 }
 
+/// What lets nothing of a roslaunch outlive it or this process, however they end.
+std::string guardProgram() {
+  return (fs::read_symlink("/proc/self/exe").parent_path() / "guard_launch").string();
+}
+
 }  // namespace
 
 Shard::Shard(std::shared_ptr<const ShardSettings> settings, int number)
@@ -57,6 +62,7 @@ bool Shard::tryStart() {
   if (!lock_->isHeld()) return false;
   pcrb::ProgramStart start;
   start.command = settings_->command;
+  start.command.insert(start.command.begin(), guardProgram());
   start.command.push_back("run:=" + folder());
   start.command.push_back("shard:=" + std::to_string(number_) + "/" +
                           std::to_string(settings_->shards));
