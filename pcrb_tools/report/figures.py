@@ -104,11 +104,6 @@ def sheet(panels, inks=None, columns=2):
     return whole
 
 
-def in_file_name(name):
-    """A name without what LaTeX reads otherwise, byte by byte as report_writer.cpp has it."""
-    return ''.join(chr(c) if chr(c).isalnum() and c < 128 or chr(c) in '.-' else '_' for c in name.encode('utf-8', 'surrogateescape'))
-
-
 def figures_of(section):
     """(name, drawing, caption) of each figure of a section."""
     kind, numbers, tables, inks = section['kind'], section['charts'], section['tables'], charts.inks_of(section)
@@ -129,10 +124,11 @@ def figures_of(section):
                    + ('medians and quartiles; a problem that ended before keeps its last answer.' if name == 'over_scans' else
                       'medians of bins that hold equally many problems; joined, with their quartiles, where each bin holds at least '
                       f'{charts.FEWEST_OF_A_LINE}.'))
-    for method in (described['method'] for described in section['methods']):
+    for described in section['methods']:
+        method = described['method']
         panels = [(p['selection'], charts.histogram(m, inks[method], p['selection'])) for p in numbers['histograms'] for m in p['methods']
                   if m['method'] == method]
-        yield ('histograms_' + in_file_name(method), sheet(panels),
+        yield ('histograms_' + described['figure'], sheet(panels),
                f'Errors of {method} on the {kind} problems. Dashed: the median; curve: the normal distribution of the same mean and '
                'standard deviation.')
     if numbers['overlaps']:
@@ -165,6 +161,7 @@ def figures_of(section):
                "Wilcoxon's signed-rank test shows no difference after Holm's correction.")
 
 
+LAST_LATIN = '\u017e'  # of the letters that LaTeX's usual fonts have
 ENVIRONMENT = '''\\begin{figure}[p]
 \\centering
 \\includegraphics[width=%s\\linewidth,height=0.85\\textheight,keepaspectratio]{figures/%s.pdf}
@@ -176,13 +173,9 @@ ENVIRONMENT = '''\\begin{figure}[p]
 '''
 
 
-LETTERS = {'\\': '\\textbackslash{}', '~': '\\~{}', '^': '\\^{}', '<': '$<$', '>': '$>$', '|': '$|$',
-           **{c: '\\' + c for c in '_%&#${}'}}
-
-
-def latex(text):
-    """A text as LaTeX reads it; letters that its usual fonts lack are `?`, as in the tables."""
-    return ''.join(LETTERS.get(c, c if ' ' <= c <= '\u017e' else '?') for c in text)
+def latex(text, letters):
+    """A text as LaTeX reads it, by what the report says of letters; those that its usual fonts lack are `?`."""
+    return ''.join(letters.get(c, c if ' ' <= c <= LAST_LATIN else '?') for c in text)
 
 
 def figures_of_trackers(trackers):
@@ -199,12 +192,13 @@ def draw(report, folder):
     parts = [(section['kind'], figures_of(section)) for section in report['sections']]
     if report['trackers']:
         parts.append(('tracking', figures_of_trackers(report['trackers'])))
+    letters = report['latex']
     text, listed = '% All figures, each to be cut out, or all by \\input\n% \\usepackage{graphicx}\n\n', {}
     with plt.rc_context({'pdf.fonttype': 42, 'figure.dpi': 200, 'savefig.dpi': 200}):
         for kind, figures in parts:
             for name, drawing, caption in figures:
                 name = f'{kind}_{name}'
                 save(drawing, folder / 'figures', name)
-                text += ENVIRONMENT % ('' if drawing.width > WIDTH else '0.6', name, latex(caption), name.replace('_', '-'))
+                text += ENVIRONMENT % ('' if drawing.width > WIDTH else '0.6', name, latex(caption, letters), name.replace('_', '-'))
                 listed.setdefault(kind, []).append((name, caption))
     return text, listed

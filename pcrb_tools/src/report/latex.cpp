@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kWidestText = 28;  // letters; longer ones are broken, in a third of a line
 constexpr std::size_t kRowsPerPage = 42;
+constexpr std::size_t kUnbroken = 14;  // letters of a word, after which it may go on below
 
 using Columns = std::vector<std::size_t>;  // positions
 
@@ -21,6 +22,10 @@ const std::map<std::string, std::string> kLetters{{"\\", "\\textbackslash{}"},
                                                   {"~", "\\~{}"},
                                                   {"^", "\\^{}"},
                                                   {"\n", " "},
+                                                  {"\t", " "},
+                                                  {"|", "$|$"},
+                                                  {"[", "{[}"},  // or it would be an option of
+                                                  {"*", "{*}"},  // the row's end before it
                                                   {"_", "\\_"},
                                                   {"%", "\\%"},
                                                   {"&", "\\&"},
@@ -43,7 +48,36 @@ const std::map<std::string, std::string> kLetters{{"\\", "\\textbackslash{}"},
                                                   {"…", "\\ldots{}"},
                                                   {"≤", "$\\le$"},
                                                   {"≥", "$\\ge$"},
-                                                  {"×", "$\\times$"}};
+                                                  {"×", "$\\times$"},
+                                                  {"«", "$\\ll$"},
+                                                  {"»", "$\\gg$"}};
+
+/// Letters between U+00A0 and U+017E that LaTeX's usual fonts lack, with the nearest that they
+/// have.
+const std::map<std::string, std::string> kAbsentLetters{
+    {"Ð", "D"}, {"ð", "d"}, {"Þ", "Th"}, {"þ", "th"}, {"Ą", "A"}, {"ą", "a"},
+    {"Đ", "D"}, {"đ", "d"}, {"Ę", "E"},  {"ę", "e"},  {"Ħ", "H"}, {"ħ", "h"},
+    {"Į", "I"}, {"į", "i"}, {"Ų", "U"},  {"ų", "u"},  {"ĸ", "k"}, {"Ŀ", "L"},
+    {"ŀ", "l"}, {"ŉ", "n"}, {"Ŋ", "N"},  {"ŋ", "n"},  {"Ŧ", "T"}, {"ŧ", "t"}};
+
+constexpr unsigned kFirstLatin = 0xA0;
+constexpr unsigned kLastLatin = 0x17E;
+
+bool isKnownToLatex(const std::string& letter) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(letter[i]); };
+  if (letter.size() == 1) return byte(0) >= 0x20 && byte(0) < 0x7F;
+  if (letter.size() != 2) return false;
+  const unsigned code = (byte(0) & 0x1FU) << 6U | (byte(1) & 0x3FU);
+  return code >= kFirstLatin && code <= kLastLatin;
+}
+
+std::string latexLetter(const std::string& letter) {
+  for (const auto* table : {&kLetters, &kAbsentLetters}) {
+    const auto found = table->find(letter);
+    if (found != table->end()) return found->second;
+  }
+  return isKnownToLatex(letter) ? letter : "?";
+}
 
 /// Bytes of the letter of UTF-8 that begins there; 1 for what is none.
 std::size_t letterLength(const std::string& text, std::size_t at) {
@@ -120,19 +154,21 @@ std::vector<Columns> columnParts(const Table& table) {
 }
 
 template <typename Cell>
-std::string latexLine(const Columns& columns, const Cell& cell) {
+std::string latexLine(const Table& table, const Columns& columns, const Cell& cell) {
   std::string text;
   for (const std::size_t column : columns) {
-    text += (column == columns.front() ? "" : " & ") + latexEscaped(cell(column));
+    const std::size_t unbroken = isBroken(table, column) ? kUnbroken : std::string::npos;
+    text += (column == columns.front() ? "" : " & ") + latexEscaped(cell(column), unbroken);
   }
   return text + " \\\\\n";
 }
 
 std::string bodyOf(const Table& table, const Columns& columns, std::size_t begin, std::size_t end) {
   std::string body =
-      latexLine(columns, [&](std::size_t i) { return table.columns[i].name; }) + "\\midrule\n";
+      latexLine(table, columns, [&](std::size_t i) { return table.columns[i].name; }) +
+      "\\midrule\n";
   for (std::size_t row = begin; row < end; ++row) {
-    body += latexLine(columns, [&](std::size_t i) {
+    body += latexLine(table, columns, [&](std::size_t i) {
       return cellText(table.rows[row][i], table.columns[i].format);
     });
   }
@@ -141,20 +177,26 @@ std::string bodyOf(const Table& table, const Columns& columns, std::size_t begin
 
 }  // namespace
 
-std::string latexEscaped(const std::string& text) {
+std::string latexEscaped(const std::string& text, std::size_t unbroken) {
   std::string escaped;
+  std::size_t run = 0;  // letters since a place where a line may end
   for (std::size_t at = 0; at < text.size();) {
     const std::string letter = text.substr(at, letterLength(text, at));
-    const auto known = kLetters.find(letter);
-    if (known != kLetters.end()) {
-      escaped += known->second;
-    } else {
-      const bool is_latin = letter.size() == 2 || static_cast<unsigned char>(letter[0]) < 0x80;
-      escaped += is_latin ? letter : "?";
+    run = letter == " " ? 0 : run + 1;
+    if (run > unbroken) {
+      escaped += "\\hspace{0pt}";
+      run = 1;
     }
+    escaped += latexLetter(letter);
     at += letter.size();
   }
   return escaped;
+}
+
+Json latexLetters() {
+  Json letters(kLetters);
+  letters.update(Json(kAbsentLetters));
+  return letters;
 }
 
 std::string latexTable(const std::string& caption, const std::string& label,

@@ -10,7 +10,11 @@ namespace pcrb_tools {
 constexpr std::size_t kLatexLetters = 78;  ///< of \footnotesize in a page's width, with gaps
 constexpr std::size_t kLatexGap = 3;       ///< letters between two columns
 
-std::string latexEscaped(const std::string& text);
+/// Text as LaTeX reads it, whatever letters it has. Words may go on in the next line after so many.
+std::string latexEscaped(const std::string& text, std::size_t unbroken = std::string::npos);
+
+/// What latexEscaped puts in the place of letters, for captions that are made elsewhere.
+Json latexLetters();
 
 /// A `table` with booktabs around rows that are there already.
 ///

@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <filesystem>
+#include <set>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
@@ -18,9 +19,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kWorstShown = 100;
 
-Json describeEntry(const Entry& entry) {
+Json describeEntry(const Entry& entry, const std::string& figure) {
   Json json;
   json["method"] = entry.method;
+  json["figure"] = figure;
   json["path"] = entry.path;
   json["problems"] = entry.problems.size();
   std::size_t answered = 0;
@@ -33,6 +35,25 @@ Json describeEntry(const Entry& entry) {
   if (!entry.info) return json;
   for (const auto& [key, text] : entry.info->writeShown()) json["info"][key] = text;
   return json;
+}
+
+/// A method's name in that of a file: without what LaTeX reads otherwise, and unlike the others'.
+std::string figureOf(std::string name, std::set<std::string>& taken) {
+  for (char& c : name) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.';
+    if (!is_plain) c = '_';
+  }
+  while (!taken.insert(name).second) name += "_2";
+  return name;
+}
+
+Json describeEntries(const Section& section) {
+  Json list = Json::array();
+  std::set<std::string> taken;
+  for (const Entry* entry : section.entries) {
+    list.push_back(describeEntry(*entry, figureOf(entry->method, taken)));
+  }
+  return list;
 }
 
 Json describeSelections(const Section& section) {
@@ -72,15 +93,6 @@ constexpr const char* kFigures[] = {"medians",    "solved",   "over_misalignment
                                     "over_scans", "overlaps", "components",        "calibration",
                                     "latencies",  "times",    "ranking",           "sweeps"};
 
-/// A name as figures.py has it in that of a file: without what LaTeX reads otherwise.
-std::string inFileName(std::string name) {
-  for (char& c : name) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-';
-    if (!is_plain) c = '_';
-  }
-  return name;
-}
-
 /// Paths below the folder of a report, without those of the files that every report has.
 std::vector<std::string> filesOf(const Json& report) {
   std::vector<std::string> files{"figures.tex"};
@@ -91,7 +103,7 @@ std::vector<std::string> filesOf(const Json& report) {
     }
     std::vector<std::string> figures(std::begin(kFigures), std::end(kFigures));
     for (const Json& method : section.at("methods")) {
-      figures.push_back("histograms_" + inFileName(method.at("method")));
+      figures.push_back("histograms_" + method.value("figure", ""));
     }
     for (const std::string& figure : figures) {
       for (const char* extension : {".png", ".pdf"}) {
@@ -131,6 +143,7 @@ ReportWriter::ReportWriter(const ReportOptions& options) : options_(options) {
   }
   json_["title"] = options.title;
   json_["version"] = PCRB_VERSION;
+  json_["latex"] = latexLetters();
   json_["sections"] = Json::array();
   markdown_ = "# " + options.title + "\n\n";
   latex_ = "% " + options.title +
@@ -143,8 +156,7 @@ void ReportWriter::addSection(const Section& section, const std::vector<GroundTr
   markdown_ += "## " + kind_ + " problems\n\n";
   Json json;
   json["kind"] = kind_;
-  json["methods"] = Json::array();
-  for (const Entry* entry : section.entries) json["methods"].push_back(describeEntry(*entry));
+  json["methods"] = describeEntries(section);
   json["baseline"] = section.baseline ? Json(section.baseline->method) : Json(nullptr);
   json["selections"] = describeSelections(section);
   json["tables"] = Json::object();

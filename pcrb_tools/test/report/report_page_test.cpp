@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kLongName = "sixty_letters_without_a_blank_as_a_method_with_its_version_has";
+
 /// Standard output of a command.
 std::string outputOf(const std::string& command) {
   std::string output;
@@ -59,6 +61,9 @@ TEST_F(ReportTest, ItsTablesAndFiguresCompileInLatex) {
   if (!fs::exists("/usr/bin/pdflatex")) GTEST_SKIP() << "pdflatex is not installed";
   options_.draw_figures = true;
   options_.runs = {addRun("good_one", 0.1), addRun("bad", 0.2, 5), addRun("ugly & 100 %", 0.3)};
+  for (const char* name : {R"([x] *1*#${}~^\y| "q" <t> ąж)", "good one", kLongName}) {
+    options_.runs.push_back(addRun(name, 0.4));
+  }
   runReportTool(options_);
   std::ofstream(options_.output + "/paper.tex")
       << "\\documentclass{article}\n\\usepackage{booktabs,graphicx}\n\\begin{document}\n"
@@ -67,10 +72,38 @@ TEST_F(ReportTest, ItsTablesAndFiguresCompileInLatex) {
       "cd " + options_.output + " && pdflatex -interaction=nonstopmode -halt-on-error paper 2>&1");
   EXPECT_NE(log.find("Output written on paper.pdf"), std::string::npos) << log;
   EXPECT_EQ(log.find("multiply defined"), std::string::npos) << log;
+  for (const char* name : {"good_one", "good_one_2"}) {  // of `good_one` and `good one`
+    EXPECT_TRUE(fs::exists(options_.output + "/figures/local_histograms_" + name + ".pdf")) << name;
+  }
   const std::regex overfull("Overfull .hbox .([0-9.]+)pt");
   for (std::sregex_iterator found(log.begin(), log.end(), overfull), end; found != end; ++found) {
     EXPECT_LT(std::stod((*found)[1]), 10.0) << found->str();  // pt beyond the page's width
   }
+}
+
+/// A page that holds another one in a frame as wide as a phone, and says how wide that has become.
+std::string onAPhone(std::string page) {
+  for (const auto& [letter, escaped] : {std::pair{"&", "&amp;"}, std::pair{"\"", "&quot;"}}) {
+    page = std::regex_replace(page, std::regex(letter), escaped);
+  }
+  return "<body><iframe id=\"f\" width=\"390\" height=\"800\" srcdoc=\"" + page +
+         "\"></iframe><script>onload = function () { document.body.dataset.width = "
+         "document.getElementById('f').contentDocument.documentElement.scrollWidth; };</script>";
+}
+
+TEST_F(ReportTest, PageFitsAPhoneWhateverTheNamesOfMethods) {
+  if (!fs::exists("/usr/bin/chromium")) GTEST_SKIP() << "chromium is not installed";
+  options_.runs = {
+      addRun("good", 0.1), addRun(kLongName, 0.2),
+      addRun("sixty letters with \"quotes\", an <i>element</i> & 'blanks' in it", 0.3)};
+  runReportTool(options_);
+  std::ofstream(folder_.file("phone.html")) << onAPhone(read(options_.output + "/index.html"));
+  const std::string page = outputOf(
+      "/usr/bin/chromium --headless --no-sandbox --disable-gpu --dump-dom --user-data-dir=" +
+      folder_.file("profile") + " file://" + folder_.file("phone.html") + " 2>/dev/null");
+  std::smatch width;
+  ASSERT_TRUE(std::regex_search(page, width, std::regex("data-width=\"(\\d+)\""))) << page;
+  EXPECT_EQ(width[1], "390");
 }
 
 TEST_F(ReportTest, PageOpensInABrowserAndShowsItsNumbersOnHover) {

@@ -62,6 +62,9 @@ TEST(ReportTable, HasInLatexNoLetterThatItDoesNotKnow) {
   EXPECT_EQ(latexEscaped("5° ± 1 σ, 50 % of a_b"),
             "5$^\\circ$ $\\pm$ 1 $\\sigma$, 50 \\% of a\\_b");
   EXPECT_EQ(latexEscaped("café 中 \xff"), "café ? ?");
+  EXPECT_EQ(latexEscaped(R"(x_1#${}~^\[*|)"), R"(x\_1\#\$\{\}\~{}\^{}\textbackslash{}{[}{*}$|$)");
+  EXPECT_EQ(latexEscaped("Łódź ę ж\t\x01"), "Łódź e ? ?");
+  EXPECT_EQ(latexEscaped("a_cd efghi", 3), "a\\_c\\hspace{0pt}d efg\\hspace{0pt}hi");
 }
 
 TEST(ReportTable, HasThreeSignificantDigitsAndNoZeroForWhatIsNone) {
