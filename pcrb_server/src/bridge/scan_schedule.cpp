@@ -146,7 +146,11 @@ std::string ScanSchedule::reason(double now) const {
                : "the node said nothing to " + scans;
   }
   if (convergence_.isSettled() || rule_.kind == AcceptanceRule::Kind::kDeadline) return "";
+  const auto answered = std::count_if(scans_.begin(), scans_.end(),
+                                      [](const Scan& scan) { return scan.answered > 0.0; });
+  const bool is_mostly_mute = 2 * answered < scansSent();
   return kNotSettled + (" after " + scans) +
+         (is_mostly_mute ? ", " + std::to_string(answered) + " of them answered" : "") +
          (now - start_ >= policy_.deadline ? ", at the deadline" : "") + ": the last answer";
 }
 

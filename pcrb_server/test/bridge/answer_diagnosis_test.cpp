@@ -50,6 +50,7 @@ TEST(Silence, ANodeThatUsesAProcessorIsBusyAndOneThatDoesNotIsSilent) {
   EXPECT_EQ(causeOf(silence, "9 scans").code, "busy");
   silence.cpu_time = 0.3;
   EXPECT_EQ(causeOf(silence, "9 scans").code, "silent");
+  EXPECT_NE(causeOf(silence, "9 scans").text.find("0.3 s of 9.0 s: "), std::string::npos);
   silence.cpu_time = -1.0;
   EXPECT_EQ(causeOf(silence, "9 scans").text, "the node said nothing to 9 scans");
 }

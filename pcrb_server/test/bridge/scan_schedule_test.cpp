@@ -138,6 +138,15 @@ TEST_F(ScanScheduleTest, ASilentNodeIsGivenUpAtTheDeadlineWithTheReason) {
   EXPECT_EQ(scans.reason(kStart + 9.0), "the node said nothing to 9 scans");
 }
 
+TEST_F(ScanScheduleTest, ANodeThatFallsSilentIsSaidToHaveDoneSo) {
+  auto scans = sequence(Kind::kStable);
+  for (double now = kStart; now < kStart + 9.0; now += 1.0) send(scans, now);
+  answer(scans, kStart + 8.5, 1);
+  EXPECT_EQ(scans.next(kStart + 9.0), Action::kSubmit);
+  EXPECT_EQ(scans.reason(kStart + 9.0),
+            "not settled after 9 scans, 1 of them answered, at the deadline: the last answer");
+}
+
 TEST_F(ScanScheduleTest, MatchesStampsThatWentThroughMicroseconds) {
   auto scans = sequence(Kind::kFirst);
   scans.scanSent(kStart, kFirstStamp + 123);

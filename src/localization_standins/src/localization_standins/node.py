@@ -101,7 +101,9 @@ class Node:
 
     def work(self, scan, stamp):
         pose = self.algorithm.update(scan, stamp.to_sec())
-        if pose is not None:
+        if pose is None:
+            rospy.logwarn('no pose of a scan: its alignment does not converge')
+        else:
             self.publish(stamp, pose)
 
     def publish(self, stamp, pose):
