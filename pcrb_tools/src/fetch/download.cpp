@@ -92,14 +92,18 @@ class Attempts {
     auto delay = policy_.first_delay;
     for (int left = policy_.attempts - 1;; --left) {
       const std::uintmax_t before = sizeOrZero(part_);
-      const TransferResult result = transfer_.fetch(url, file_.url, part_, file_.google_drive);
+      const TransferResult result =
+          transfer_.fetch(url, file_.url, part_, file_.google_drive, mostBytes());
       if (result.outcome == TransferResult::Outcome::kComplete && !result.html.empty()) {
         url = confirm(result, is_confirmed);
         is_confirmed = true;
         continue;
       }
       if (result.outcome == TransferResult::Outcome::kComplete || isSameEnd(result)) return;
-      if (result.outcome == TransferResult::Outcome::kPermanent) fail(file_, result.what);
+      if (result.outcome == TransferResult::Outcome::kPermanent) {
+        if (result.is_too_long) removePart(part_);
+        fail(file_, result.what);
+      }
       if (result.outcome == TransferResult::Outcome::kRestart) removePart(part_);
       if (sizeOrZero(part_) > before) {  // it gets on: be as patient as at first
         left = policy_.attempts - 1;
@@ -133,6 +137,13 @@ class Attempts {
   }
 
  private:
+  /// A bit more than a known size: how much too long a file is says what it is.
+  std::uint64_t mostBytes() const {
+    constexpr std::uint64_t kMegabyte = 1000000;
+    if (!file_.bytes) return file_.most_bytes;
+    return std::min(*file_.bytes, file_.most_bytes - kMegabyte) + kMegabyte;
+  }
+
   std::string confirm(const TransferResult& page, bool is_confirmed) const {
     const auto url = is_confirmed ? std::nullopt : confirmedUrl(page.html, page.effective_url);
     if (!url) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,8 @@ struct Download {
   std::optional<std::uint64_t> bytes;  ///< what its size must be, where known
   /// Throws a pcrb::Error if the file at the path is not what it should be.
   std::function<void(const std::string& path)> check;
+  /// A server that sends more is not listened to any longer.
+  std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// How patient a download is.

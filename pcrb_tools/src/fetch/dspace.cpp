@@ -16,14 +16,29 @@ namespace {
 
 using nlohmann::json;
 
+using Answers = std::function<std::string(const std::string& url)>;
+
 constexpr const char* kBundle = "ORIGINAL";  ///< what was uploaded; others hold e.g. thumbnails
 constexpr std::size_t kMostPages = 1000;
+constexpr std::uint64_t kLongestAnswer = 1 << 22;  // bytes
+constexpr int kDeepest = 100;                      // objects and arrays in each other
+
+/// An answer's JSON.
+json parsed(const std::string& answer, const std::string& url) {
+  return json::parse(answer, [&](int depth, json::parse_event_t, const json&) {
+    if (depth > kDeepest) throw pcrb::InvalidFile(url, 0, "JSON of great depth", "a list of files");
+    return true;
+  });
+}
+
+bool isMd5(const std::string& text) {
+  return text.size() == 32 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
 
 /// The answers of a repository.
 class Dspace {
  public:
-  Dspace(const Place& place, std::string scratch, const DownloadPolicy& policy)
-      : place_(place), scratch_(std::move(scratch)), policy_(policy) {}
+  Dspace(const Place& place, const Answers& get) : place_(place), get_(get) {}
 
   Place find() const {
     std::vector<std::string> names;
@@ -35,15 +50,23 @@ class Dspace {
         place_.url + "/core/bundles/" + bundle.at("uuid").get<std::string>() + "/bitstreams";
     const json file = findNamed(files, "bitstreams", place_.dspace_name, names);
     if (file.is_null()) refuse("the files " + pcrb::joined(names), place_.dspace_name);
-    Place found = place_;
-    found.url = file.at("_links").at("content").at("href").get<std::string>();
-    found.bytes = file.at("sizeBytes").get<std::uint64_t>();
-    const json& sum = file.at("checkSum");
-    if (sum.at("checkSumAlgorithm") == "MD5") found.md5 = sum.at("value").get<std::string>();
-    return found;
+    return placeOf(file);
   }
 
  private:
+  Place placeOf(const json& file) const {
+    Place found = place_;
+    found.url = file.at("_links").at("content").at("href").get<std::string>();
+    const json& bytes = file.at("sizeBytes");
+    if (!bytes.is_number_unsigned()) refuse("sizeBytes " + bytes.dump(), "a number of bytes");
+    found.bytes = bytes.get<std::uint64_t>();
+    const json& sum = file.at("checkSum");
+    if (sum.at("checkSumAlgorithm") != "MD5") return found;
+    found.md5 = sum.at("value").get<std::string>();
+    if (!isMd5(found.md5)) refuse("MD5 " + pcrb::inQuotes(found.md5), "32 hexadecimal digits");
+    return found;
+  }
+
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
     throw pcrb::InvalidFile("item " + place_.dspace_item + " at " + place_.url, 0, found, expected);
   }
@@ -52,7 +75,7 @@ class Dspace {
   json findNamed(std::string url, const std::string& list, const std::string& name,
                  std::vector<std::string>& names) const {
     for (std::size_t page = 0; page != kMostPages && !url.empty(); ++page) {
-      const json answer = get(url);
+      const json answer = parsed(get_(url), url);
       if (answer.contains("_embedded")) {
         for (const json& element : answer.at("_embedded").at(list)) {
           if (element.at("name") == name) return element;
@@ -65,29 +88,33 @@ class Dspace {
     return nullptr;
   }
 
-  json get(const std::string& url) const {
-    download({url, scratch_, false, std::nullopt, {}}, policy_);
-    const pcrb::FileBytes bytes(scratch_);
-    json answer = json::parse(bytes.begin(), bytes.end());
-    std::filesystem::remove(scratch_);
-    return answer;
-  }
-
   const Place& place_;
-  std::string scratch_;
-  const DownloadPolicy& policy_;
+  const Answers& get_;
 };
 
 }  // namespace
 
-Place findInDspace(const Place& place, const std::string& scratch, const DownloadPolicy& policy) {
+Place findInDspace(const Place& place, const Answers& get) {
   try {
-    DownloadPolicy quiet = policy;
-    quiet.on_progress = nullptr;
-    return Dspace(place, scratch, quiet).find();
+    return Dspace(place, get).find();
   } catch (const json::exception& error) {
     throw pcrb::InvalidFile(place.url, 0, error.what(), "an answer of DSpace 7");
   }
+}
+
+Place findInDspace(const Place& place, const std::string& scratch, const DownloadPolicy& policy) {
+  DownloadPolicy quiet = policy;
+  quiet.on_progress = nullptr;
+  return findInDspace(place, [&](const std::string& url) {
+    Download answer;
+    answer.url = url;
+    answer.destination = scratch;
+    answer.most_bytes = kLongestAnswer;
+    download(answer, quiet);
+    const pcrb::FileBytes bytes(scratch);
+    std::filesystem::remove(scratch);
+    return std::string(bytes.text());
+  });
 }
 
 void requireMd5(const std::string& path, const std::string& expected) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "fetch/download.hpp"
@@ -16,6 +17,9 @@ namespace pcrb_tools {
 /// @throws pcrb::InvalidFile  for answers of another form; if the item has no such file, naming
 ///                            those it has.
 Place findInDspace(const Place& place, const std::string& scratch, const DownloadPolicy& policy);
+
+/// The same with the repository's answers by their addresses, whatever they hold.
+Place findInDspace(const Place& place, const std::function<std::string(const std::string&)>& get);
 
 /// @throws pcrb::InvalidFile  if a file's MD5 is not the expected one.
 void requireMd5(const std::string& path, const std::string& expected);

@@ -72,6 +72,11 @@ bool Response::write(const char* bytes, std::size_t n) {
     write_error = error.what();
     return false;
   }
+  received += n;
+  if (offset + received > most) {
+    write_error = "found more than " + std::to_string(most) + " bytes, expected at most so many";
+    return false;
+  }
   if (std::fwrite(bytes, 1, n, file.get()) == n) return true;
   write_error = part + ": cannot be written (disk full?)";
   return false;

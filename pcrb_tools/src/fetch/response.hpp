@@ -19,6 +19,7 @@ struct Response {
   std::string part;
   bool keep_html = false;
   std::uint64_t offset = 0;  ///< bytes of the part file that the body is appended to
+  std::uint64_t most = 0;    ///< bytes that the part file may have
   const DownloadPolicy* policy = nullptr;
 
   bool is_http = false;
@@ -31,7 +32,8 @@ struct Response {
   std::string html;             ///< the body, where it is a page that is to be kept
   bool is_other_range = false;  ///< the server did not send what was asked for
   std::string write_error;
-  CURLcode code = CURLE_OK;  ///< how the request ended
+  std::uint64_t received = 0;  ///< bytes of the body
+  CURLcode code = CURLE_OK;    ///< how the request ended
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file{nullptr, &std::fclose};
 
   /// One line of the headers; those of redirections come before those of the final response.

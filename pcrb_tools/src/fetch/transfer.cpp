@@ -73,6 +73,7 @@ TransferResult judge(const Response& response, std::uint64_t before) {
   TransferResult result;
   if (!response.write_error.empty()) {
     result.what = response.write_error;
+    result.is_too_long = response.offset + response.received > response.most;
   } else if (response.is_other_range) {
     result.outcome = TransferResult::Outcome::kRestart;
     result.what = "the server sends another part of the file than was asked for";
@@ -126,11 +127,12 @@ Transfer::Transfer(const DownloadPolicy& policy) : handle_(curl_easy_init()), po
 Transfer::~Transfer() { curl_easy_cleanup(handle_); }
 
 TransferResult Transfer::fetch(const std::string& url, const std::string& source,
-                               const std::string& part, bool keep_html) {
+                               const std::string& part, bool keep_html, std::uint64_t most) {
   Response response;
   response.source = source;
   response.part = part;
   response.keep_html = keep_html;
+  response.most = most;
   response.policy = &policy_;
   const PartOrigin origin = readOrigin(part);
   if (origin.source == source) response.offset = sizeOf(part);

@@ -20,6 +20,7 @@ struct TransferResult {
   std::string what;           ///< the server's or the network's words, unless complete
   std::string html;           ///< a page that came instead of the file (Google Drive only)
   std::string effective_url;  ///< after redirections
+  bool is_too_long = false;   ///< more bytes came than the file may have
 };
 
 struct Response;
@@ -37,8 +38,9 @@ class Transfer {
   /// @param source  what the file is known by, recorded in `<part>.from`: a part of another source
   /// is
   ///                begun anew. The URL of a confirmed download changes every time, this does not.
+  /// @param most    bytes that the part file may have; a response that goes on is given up.
   TransferResult fetch(const std::string& url, const std::string& source, const std::string& part,
-                       bool keep_html);
+                       bool keep_html, std::uint64_t most);
 
  private:
   /// Returns the network's words, unless all went well.

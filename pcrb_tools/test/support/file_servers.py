@@ -14,9 +14,11 @@ Prints the two ports and serves until its standard input is closed. Paths (http;
   /page/NAME      a page of HTML, said to be the file
   /drive?id=NAME  a page that asks for a confirmation, as Google Drive has it
   /quota?id=NAME  a page that says no
+  /endless/…      spaces, until the client goes
   /dspace/…       the REST interface of a DSpace 7 repository: one item, `item`, with the folder's files, two a page
 """
 
+import contextlib
 import hashlib
 import http.server
 import json
@@ -146,6 +148,13 @@ class Http(http.server.BaseHTTPRequestHandler):
     def send_quota(self, _, __):
         self.send_html("<html><title>Quota exceeded</title></html>", Content_Type="text/html")
 
+    def send_endless(self, _, __):
+        self.send_response(200)
+        self.send_header("Connection", "close")
+        self.end_headers()
+        with contextlib.suppress(ConnectionError):
+            while True:
+                self.wfile.write(b" " * 65536)
 
     def send_json(self, value):
         data = json.dumps(value).encode()
