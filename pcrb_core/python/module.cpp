@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 
 #include <exception>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +31,12 @@ namespace {
 
 using Array = py::array_t<double, py::array::c_style>;  // (n, 3)
 using Rows = Eigen::Matrix<double, 3, 4>;
+
+/// A text of any bytes, as a name of a file may be, as Python has it: with its own escapes.
+py::object textOf(const std::string& bytes) {
+  const auto size = static_cast<py::ssize_t>(bytes.size());
+  return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(bytes.data(), size));
+}
 
 pcrb::DatasetCloud toCloud(const Array& array) {
   pcrb::DatasetCloud cloud;
@@ -104,9 +109,9 @@ py::list readProblems(const std::string& path) {
   py::list list;
   for (const pcrb::Problem& problem : pcrb::readProblemFile(path)) {
     py::dict row;
-    row["id"] = problem.id;
-    row["source"] = problem.source;
-    row["target"] = problem.target;
+    row["id"] = textOf(problem.id);
+    row["source"] = textOf(problem.source);
+    row["target"] = textOf(problem.target);
     row["overlap"] = problem.overlap;
     Eigen::Matrix4d P = Eigen::Matrix4d::Identity();
     P.topRows<3>() = problem.perturbation;
@@ -149,15 +154,15 @@ py::object orNone(const std::optional<Value>& value) {
 
 py::dict toRow(const pcrb::Result& result) {
   py::dict row;
-  row["data_set"] = result.key.data_set;
-  row["sequence"] = result.key.sequence;
+  row["data_set"] = textOf(result.key.data_set);
+  row["sequence"] = textOf(result.key.sequence);
   row["kind"] = toString(result.key.kind);
-  row["problem_id"] = result.key.problem_id;
-  row["source"] = result.source;
-  row["target"] = result.target;
+  row["problem_id"] = textOf(result.key.problem_id);
+  row["source"] = textOf(result.source);
+  row["target"] = textOf(result.target);
   row["overlap"] = result.overlap;
   row["outcome"] = toString(result.outcome);
-  row["reason"] = result.reason;
+  row["reason"] = textOf(result.reason);
   row["error"] = result.error;
   row["initial_misalignment"] = result.initial_misalignment;
   row["rotation_error_rad"] = result.rotation_error;
@@ -177,16 +182,11 @@ py::list readResults(const std::string& folder) {
   return list;
 }
 
-/// A path of any bytes as Python has it.
-py::object pathText(const std::string& path) {
-  return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(path.c_str()));
-}
-
 py::list findSequences(const std::string& root) {
   py::list list;
   for (const pcrb::SequenceFiles& files : pcrb::findSequences(root)) {
-    list.append(py::make_tuple(pathText(files.data_set), pathText(files.sequence),
-                               toString(files.kind), pathText(files.problem_file)));
+    list.append(py::make_tuple(textOf(files.data_set), textOf(files.sequence),
+                               toString(files.kind), textOf(files.problem_file)));
   }
   return list;
 }
@@ -213,14 +213,14 @@ py::list plan(const std::string& root, const std::vector<std::string>& sequences
       pcrb::makeRunPlan(selectionOf(root, sequences, kinds, subset, seed));
   for (const pcrb::PlannedProblem& planned : problems.problems) {
     py::dict row;
-    row["id"] = planned.key.problem_id;
-    row["data_set"] = planned.key.data_set;
-    row["sequence"] = planned.key.sequence;
+    row["id"] = textOf(planned.key.problem_id);
+    row["data_set"] = textOf(planned.key.data_set);
+    row["sequence"] = textOf(planned.key.sequence);
     row["kind"] = toString(planned.key.kind);
-    row["source"] = planned.problem.source;
-    row["target"] = planned.problem.target;
-    row["source_path"] = pathText(planned.source_path);
-    row["target_path"] = pathText(planned.target_path);
+    row["source"] = textOf(planned.problem.source);
+    row["target"] = textOf(planned.problem.target);
+    row["source_path"] = textOf(planned.source_path);
+    row["target_path"] = textOf(planned.target_path);
     row["overlap"] = planned.problem.overlap;
     row["voxel_leaf"] = planned.data_set->voxel_leaf;
     row["perturbation"] = py::cast(Eigen::Matrix4d(planned.P.matrix()));
@@ -259,9 +259,9 @@ py::object nextProblem(pcrb::InProcessRun& run) {
   }
   if (!problem) return py::none();
   py::dict fields;
-  fields["id"] = problem->id;
-  fields["data_set"] = problem->data_set;
-  fields["sequence"] = problem->sequence;
+  fields["id"] = textOf(problem->id);
+  fields["data_set"] = textOf(problem->data_set);
+  fields["sequence"] = textOf(problem->sequence);
   fields["kind"] = toString(problem->kind);
   fields["target"] = cloudArray(problem->target);
   fields["source"] = cloudArray(problem->source);
@@ -327,15 +327,17 @@ void defineRun(py::module& module) {
       .def("finish", &pcrb::InProcessRun::finish);
 }
 
-std::map<std::string, std::string> readRunInfo(const std::string& folder) {
-  auto info = pcrb::ResultsStore(folder, pcrb::ResultsStore::Access::kReadOnly).runInfo();
+py::dict readRunInfo(const std::string& folder) {
+  const pcrb::ResultsStore store(folder, pcrb::ResultsStore::Access::kReadOnly);
+  py::dict info;
+  for (const auto& [key, value] : store.runInfo()) info[textOf(key)] = textOf(value);
   return info;
 }
 
 /// Raises a class of this module. A message may name a path of any bytes: Python's own escapes.
 void raise(const char* name, const std::exception& error) {
   const py::object type = py::module::import("pcrb._pcrb").attr(name);
-  const py::object text = pathText(error.what());
+  const py::object text = textOf(error.what());
   PyErr_SetObject(type.ptr(), text.ptr());
 }
 

@@ -127,7 +127,8 @@ def write_problems(path, problems):
 
     Raises InvalidProblem for a row that read_problems would refuse, InvalidFile if the file cannot be written.
     """
-    rows = [dict(problem, perturbation=_matrix(problem['perturbation'], 'perturbation')) for problem in problems]
+    rows = [dict(problem, perturbation=_matrix(problem['perturbation'], 'perturbation'),
+                 **{name: os.fsencode(problem[name]) for name in ('id', 'source', 'target')}) for problem in problems]
     _pcrb.write_problems(os.fsencode(path), rows)
 
 

@@ -56,7 +56,8 @@ def selected(sequences, kind):
     """Words of a selection as a list, and the kinds that a word names."""
     if kind not in KINDS:
         raise _pcrb.InvalidParameter(f'kind: found `{kind}`, expected local, global or both')
-    return sequences.split() if isinstance(sequences, str) else list(sequences), KINDS[kind]
+    words = sequences.split() if isinstance(sequences, str) else sequences
+    return [os.fsencode(word) for word in words], KINDS[kind]
 
 
 def _open(root, sequences, kind, subset, seed, presentation, time_limit=math.inf, folder='', name=''):
@@ -118,7 +119,7 @@ def _answer(function, problem):
         answer = function(problem)
         return _pcrb.failure('the function returned None') if answer is None else _submission(answer)
     except Exception as error:  # whatever a method of the user's ends in is its outcome
-        return _pcrb.failure(f'{type(error).__name__}: {error}')
+        return _pcrb.failure(os.fsencode(f'{type(error).__name__}: {error}'))
 
 
 # What pcrb report --import takes of a file, and results.csv has, in this order.
@@ -148,7 +149,7 @@ def write_results(path, rows):
         if not (math.isfinite(row['error']) and row['error'] >= 0):
             raise _pcrb.InvalidParameter(f'row {number}: found error {row["error"]}, expected a number >= 0')
     columns = [name for name in COLUMNS if name in given or name in NEEDED]
-    with open(path, 'w', encoding='utf-8', newline='') as file:
+    with open(path, 'w', encoding='utf-8', errors='surrogateescape', newline='') as file:
         writer = csv.writer(file)
         writer.writerow(columns)
         writer.writerows([_text(row.get(name)) for name in columns] for row in rows)

@@ -209,6 +209,30 @@ class AnyBytesTest(unittest.TestCase):
         self.assertEqual(pcrb.find_sequences(self.folder), [(data_set, sequence, 'local', path)])
         self.assertEqual(pcrb.select_sequences([(data_set, sequence), ('a', 'b')], [sequence]), [(data_set, sequence)])
 
+    def test_a_run_of_clouds_with_such_names_is_read_back(self):
+        source, sequence, run = os.fsdecode(b'h\xf6he.pcd'), os.fsdecode(b'k\xfcche'), os.path.join(self.folder, 'run')
+        clouds = os.path.join(self.folder, 'rooms', sequence)
+        os.makedirs(clouds)
+        for name in source, 'b.pcd':
+            pcrb.write_pcd(os.path.join(clouds, name), some_points())
+        problems = [{'id': '10', 'source': source, 'target': 'b.pcd', 'overlap': 1.0,
+                     'perturbation': pcrb.make_perturbation(some_points(), [0.1, 0, 0], some_rotation())}]
+        pcrb.write_problems(f'{clouds}_local.txt', problems)
+        self.assertEqual(pcrb.read_problems(f'{clouds}_local.txt')[0]['source'], source)
+        self.assertEqual([problem.sequence for problem in pcrb.problems(self.folder, sequence)], [sequence])
+
+        def method(problem):
+            raise ValueError(source)
+        results = pcrb.run(method, self.folder, run, sequences=sequence)
+        for column, value in ('source', source), ('sequence', sequence), ('outcome', 'failed'):
+            self.assertEqual(results[column].tolist(), [value])
+            self.assertEqual(pcrb.read_results(run)[column].tolist(), [value])
+        self.assertIn(os.path.realpath(self.folder), pcrb.read_run_info(run).values())
+        pcrb.write_results(os.path.join(self.folder, 'a.csv'), [
+            {'sequence': sequence, 'kind': 'local', 'problem_id': '10', 'error': 0.1}])
+        with open(os.path.join(self.folder, 'a.csv'), 'rb') as table:
+            self.assertIn(b'k\xfcche,local', table.read())
+
     def test_errors_name_the_path(self):
         for function, error in ((pcrb.read_pcd, pcrb.InvalidFile), (pcrb.read_problems, pcrb.InvalidFile),
                                 (pcrb.read_results, pcrb.StoreError)):
