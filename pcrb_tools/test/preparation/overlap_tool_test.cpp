@@ -101,6 +101,21 @@ TEST_F(OverlapToolTest, GoesOnFromAJournalWithATornLastLine) {
   }
 }
 
+TEST_F(OverlapToolTest, AColumnOfAJournalWithAValueThatIsNoShareIsComputedAnew) {
+  runOverlapTool(options_);
+  const std::string complete = textOf(output_);
+  std::string journal = textOf(pcrb::sideFile(output_));
+  journal.resize(journal.find("output_blake2b"));
+  journal += "0 1";
+  for (int i = 1; i < 11; ++i) journal += " 0.125";
+  for (const char* value : {"7.5", "-0.5", "inf", "half"}) {
+    std::ofstream(output_ + ".partial", std::ios::binary) << journal << " " << value << "\n";
+    fs::remove(output_);
+    runOverlapTool(options_);
+    EXPECT_EQ(textOf(output_), complete) << value;
+  }
+}
+
 TEST_F(OverlapToolTest, AJournalOfOtherCloudsOfTheSameSizesIsBegunAnew) {
   const std::string cloud = textOf(cloudFile(3));
   runOverlapTool(options_);
