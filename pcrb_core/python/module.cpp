@@ -324,7 +324,7 @@ void defineRun(py::module& module) {
                        double runtime) { return toRow(run.score(submission, runtime)); })
       .def("submit", [](pcrb::InProcessRun& run, const pcrb::Submission& submission,
                         double runtime) { return toRow(run.submit(submission, runtime)); })
-      .def("finish", &pcrb::InProcessRun::finish);
+      .def("finish", [](pcrb::InProcessRun& run) { return textOf(run.finish()); });
 }
 
 py::dict readRunInfo(const std::string& folder) {

@@ -227,7 +227,7 @@ class AnyBytesTest(unittest.TestCase):
         for column, value in ('source', source), ('sequence', sequence), ('outcome', 'failed'):
             self.assertEqual(results[column].tolist(), [value])
             self.assertEqual(pcrb.read_results(run)[column].tolist(), [value])
-        self.assertIn(os.path.realpath(self.folder), pcrb.read_run_info(run).values())
+        self.assertTrue(any(self.folder in value for value in pcrb.read_run_info(run).values()))
         pcrb.write_results(os.path.join(self.folder, 'a.csv'), [
             {'sequence': sequence, 'kind': 'local', 'problem_id': '10', 'error': 0.1}])
         with open(os.path.join(self.folder, 'a.csv'), 'rb') as table:

@@ -103,8 +103,8 @@ TEST(DspaceAnswers, DamagedOnesAreAPlaceThatCouldBeMeantOrRefused) {
   ASSERT_EQ(askFor(wholeAnswers()).bytes, 5000U);
   pcrb::Random random(23);
   int found = 0;
-  constexpr int kDamages = 3000;
-  for (int i = 0; i < kDamages; ++i) {
+  constexpr int kDamagedAnswers = 3000;
+  for (int i = 0; i < kDamagedAnswers; ++i) {
     auto answers = wholeAnswers();
     for (auto& [url, answer] : answers) {
       if (random.uniform(0, 1) < 0.5) answer = damagedAnswer(answer, random);
@@ -117,7 +117,7 @@ TEST(DspaceAnswers, DamagedOnesAreAPlaceThatCouldBeMeantOrRefused) {
     }
   }
   EXPECT_GT(found, 0);
-  EXPECT_LT(found, kDamages);
+  EXPECT_LT(found, kDamagedAnswers);
 }
 
 TEST(DspaceAnswers, WhatIsNoSizeOrChecksumOrWithoutAnEndIsRefused) {
