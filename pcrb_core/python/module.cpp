@@ -185,8 +185,8 @@ py::list readResults(const std::string& folder) {
 py::list findSequences(const std::string& root) {
   py::list list;
   for (const pcrb::SequenceFiles& files : pcrb::findSequences(root)) {
-    list.append(py::make_tuple(textOf(files.data_set), textOf(files.sequence),
-                               toString(files.kind), textOf(files.problem_file)));
+    list.append(py::make_tuple(textOf(files.data_set), textOf(files.sequence), toString(files.kind),
+                               textOf(files.problem_file)));
   }
   return list;
 }
