@@ -1,8 +1,8 @@
-#include <nanoflann.hpp>
 #include <utility>
 
 #include "pcrb_core/parallel.hpp"
 #include "registration/features.hpp"
+#include "search/nanoflann.hpp"
 
 namespace pcrb {
 namespace {
@@ -24,7 +24,9 @@ class FeatureMatcher::Index {
   explicit Index(FpfhCloud described)
       : cloud(std::move(described)),
         set_{cloud.features},
-        tree_(kFpfhSize, set_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}
+        tree_(kFpfhSize, set_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {
+    buildNanoflann(tree_);
+  }
 
   /// For the chosen ones of some features the index of their nearest here.
   std::vector<std::uint32_t> nearestOf(const std::vector<Fpfh>& features,
@@ -60,11 +62,7 @@ class FeatureMatcher::Index {
     float squared_distance = 0.0F;
     nanoflann::KNNResultSet<float, std::uint32_t> result(1);
     result.init(&index, &squared_distance);
-#if NANOFLANN_VERSION >= 0x150
-    tree_.findNeighbors(result, query.data());
-#else
-    tree_.findNeighbors(result, query.data(), nanoflann::SearchParams());
-#endif
+    tree_.findNeighbors(result, query.data(), NanoflannParameters());
     return index;
   }
 

@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <limits>
-#include <nanoflann.hpp>
 #include <utility>
 
 #include "pcrb_core/error.hpp"
+#include "search/nanoflann.hpp"
 
 namespace pcrb {
 namespace {
 
 constexpr std::size_t kLeafSize = 10;
-
-#if NANOFLANN_VERSION >= 0x150
-using SearchParameters = nanoflann::SearchParameters;
-#else
-using SearchParameters = nanoflann::SearchParams;
-#endif
 
 /// Collects the nearest points, nearest first, directly as Neighbors.
 class NearestSet {
@@ -96,7 +90,9 @@ struct KdTree::Index {
 
   explicit Index(std::vector<Eigen::Vector3f> values)
       : points{std::move(values)},
-        tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}
+        tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {
+    buildNanoflann(tree);
+  }
 
   Points points;
   Tree tree;
@@ -116,7 +112,7 @@ const std::vector<Eigen::Vector3f>& KdTree::points() const { return index_->poin
 Neighbor KdTree::nearest(const Eigen::Vector3f& query) const {
   Neighbor neighbor;
   NearestSet result(&neighbor, 1);
-  index_->tree.findNeighbors(result, query.data(), SearchParameters());
+  index_->tree.findNeighbors(result, query.data(), NanoflannParameters());
   return neighbor;
 }
 
@@ -125,14 +121,14 @@ void KdTree::nearest(const Eigen::Vector3f& query, std::size_t count,
   neighbors.resize(std::min(count, points().size()));
   if (neighbors.empty()) return;
   NearestSet result(neighbors.data(), neighbors.size());
-  index_->tree.findNeighbors(result, query.data(), SearchParameters());
+  index_->tree.findNeighbors(result, query.data(), NanoflannParameters());
 }
 
 void KdTree::within(const Eigen::Vector3f& query, float radius,
                     std::vector<Neighbor>& neighbors) const {
   neighbors.clear();
   WithinSet result(radius * radius, neighbors);
-  index_->tree.findNeighbors(result, query.data(), SearchParameters());
+  index_->tree.findNeighbors(result, query.data(), NanoflannParameters());
 }
 
 }  // namespace pcrb
