@@ -58,6 +58,17 @@ class ParametersTest(TestCase):
                 self.assertIn(f'{name}: found `my/bench`, expected an absolute path: roslaunch starts programs in '
                               f'another folder; write {argument}:=$PWD/my/bench', launch.output())
 
+    def test_arguments_that_a_launch_file_does_not_have_are_refused(self):
+        """roslaunch takes them without a word, and would start all problems in place of five."""
+        good = {'root': self.path('root'), 'run': self.path('run')}
+        for file, others in (('benchmark.launch', good), ('localization.launch', {**good, 'node_launch': '/x.launch'}),
+                             ('replay.launch', {**good, 'rviz': 'false'}), ('paper.launch', good),
+                             ('prepare.launch', {'root': self.path('root'), 'logs': '/l'})):
+            launch = self.start(Launch(file, **others, subst='5'))
+            launch.wait()
+            self.assertRegex(launch.output(), rf'found `subst:=5`, expected arguments of \S*/{file}: .*\broot\b')
+        self.assertFalse(os.path.exists(self.path('run')))
+
     def test_arguments_that_look_like_numbers_are_text_in_every_launch_file(self):
         """0 would be false: replay would show the ground truth."""
         for file, arguments, pattern in (

@@ -1,6 +1,8 @@
 // What stands before a node in a launch file (launch-prefix) whose end is the launch's: roslaunch's
-// `required` calls every end a death, in red, that of a finished run too.
+// `required` calls every end a death, in red, that of a finished run too. Before the node starts,
+// it refuses what roslaunch takes without a word: arguments that the launch file does not have.
 
+#include <ros/package.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,7 +10,13 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <vector>
+
+#include "benchmarking/batch_tool.hpp"
 
 namespace {
 
@@ -25,6 +33,40 @@ int waitFor(pid_t node) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+std::vector<std::string> commandLine(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/cmdline");
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  return words;
+}
+
+/// Whether it is a path of a launch file of pcrb_launch; a user's own may pass on what it likes.
+bool isOfSuite(const std::string& path) {
+  std::error_code not_there;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return std::filesystem::equivalent(folder, ros::package::getPath("pcrb_launch"), not_there);
+}
+
+/// @throws pcrb::InvalidParameter  if a roslaunch of one launch file of pcrb_launch was given an
+///                                 argument that it does not have.
+void requireKnownArguments(pid_t roslaunch) {
+  pcrb_tools::BatchOptions given;
+  given.launch.clear();
+  std::string package;
+  for (const std::string& word : commandLine(roslaunch)) {
+    if (word.find(":=") != std::string::npos) {
+      if (word.front() != '_') given.arguments.push_back(word);
+    } else if (std::filesystem::path(word).extension() == ".launch") {
+      if (!given.launch.empty()) return;
+      given.launch = word;
+    } else if (given.launch.empty()) {
+      package = word;
+    }
+  }
+  if (given.arguments.empty() || given.launch.empty()) return;
+  if (package == "pcrb_launch" || isOfSuite(given.launch)) pcrb_tools::requireKnownArguments(given);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,6 +80,13 @@ int main(int argc, char** argv) {
     return 2;
   }
   const pid_t roslaunch = getppid();
+  try {
+    requireKnownArguments(roslaunch);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    kill(roslaunch, SIGINT);
+    return 2;
+  }
   for (const int caught : {SIGINT, SIGTERM}) std::signal(caught, note);
   const pid_t node = fork();
   if (node == 0) {
