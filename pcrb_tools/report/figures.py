@@ -162,6 +162,7 @@ def figures_of(section):
 
 
 LAST_LATIN = '\u017e'  # of the letters that LaTeX's usual fonts have
+UNBROKEN = 14  # letters, as in the tables
 ENVIRONMENT = '''\\begin{figure}[p]
 \\centering
 \\includegraphics[width=%s\\linewidth,height=0.85\\textheight,keepaspectratio]{figures/%s.pdf}
@@ -174,8 +175,12 @@ ENVIRONMENT = '''\\begin{figure}[p]
 
 
 def latex(text, letters):
-    """A text as LaTeX reads it, by what the report says of letters; those that its usual fonts lack are `?`."""
-    return ''.join(letters.get(c, c if ' ' <= c <= LAST_LATIN else '?') for c in text)
+    """A text as LaTeX reads it, by what the report says of letters; those that its usual fonts lack are `?`. Long words may be broken."""
+    def pieces(word):
+        return [word[i:i + UNBROKEN] for i in range(0, len(word), UNBROKEN)] or ['']
+    words = ('\\hspace{0pt}'.join(''.join(letters.get(c, c if ' ' <= c <= LAST_LATIN else '?') for c in piece) for piece in pieces(word))
+             for word in text.split(' '))
+    return ' '.join(words)
 
 
 def figures_of_trackers(trackers):
