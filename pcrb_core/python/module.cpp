@@ -311,7 +311,7 @@ std::unique_ptr<pcrb::InProcessRun> makeRun(const std::string& root,
 }
 
 void defineRun(py::module& module) {
-  py::class_<pcrb::Submission>(module, "Submission");
+  const py::class_<pcrb::Submission> submission(module, "Submission");
   module.def("pose", &poseSubmission);
   module.def("failure", &failure);
   module.def("position_and_orientation", &positionAndOrientation);
@@ -361,10 +361,10 @@ void translate(std::exception_ptr thrown) {
 
 PYBIND11_MODULE(_pcrb, module) {
   const py::exception<pcrb::Error> base(module, "Error", PyExc_RuntimeError);
-  py::exception<pcrb::InvalidFile>(module, "InvalidFile", base);
-  py::exception<pcrb::InvalidProblem>(module, "InvalidProblem", base);
-  py::exception<pcrb::InvalidParameter>(module, "InvalidParameter", base);
-  py::exception<pcrb::StoreError>(module, "StoreError", base);
+  const py::exception<pcrb::InvalidFile> invalid_file(module, "InvalidFile", base);
+  const py::exception<pcrb::InvalidProblem> invalid_problem(module, "InvalidProblem", base);
+  const py::exception<pcrb::InvalidParameter> invalid_parameter(module, "InvalidParameter", base);
+  const py::exception<pcrb::StoreError> store_error(module, "StoreError", base);
   py::register_exception_translator(&translate);
   module.def("error", [](const Array& aligned, const Array& ground_truth) {
     return pcrb::error(toCloud(aligned).points, toCloud(ground_truth).points);
