@@ -311,7 +311,7 @@ std::unique_ptr<pcrb::InProcessRun> makeRun(const std::string& root,
 }
 
 void defineRun(py::module& module) {
-  const py::class_<pcrb::Submission> submission(module, "Submission");
+  const py::class_<pcrb::Submission> submission_type(module, "Submission");
   module.def("pose", &poseSubmission);
   module.def("failure", &failure);
   module.def("position_and_orientation", &positionAndOrientation);
