@@ -150,7 +150,8 @@ std::vector<double> pointTimes(const sensor_msgs::PointCloud2& message) {
   std::vector<double> times(countPoints(message));
   if (times.empty() || field == message.fields.end()) return {};
   const PointField time(message, field->name, PointField::Types::kAll);
-  for (std::size_t i = 0; i != times.size(); ++i) times[i] = scaleOf(*field) * time[i];
+  const double scale = scaleOf(*field);
+  for (std::size_t i = 0; i != times.size(); ++i) times[i] = scale * time[i];
   return times;
 }
 
