@@ -24,8 +24,7 @@ bool areBags(const std::vector<std::string>& inputs);
 /// The messages of some topics of bags, in the order in which they were recorded.
 class BagMessages {
  public:
-  /// @throws InvalidFile  if a bag cannot be opened; a bag that was not closed, is damaged, or has
-  /// a
+  /// @throws InvalidFile  if a bag cannot be opened; one that was not closed, is damaged, or has a
   ///                      chunk that memory has no room for is named as such.
   explicit BagMessages(const std::vector<std::string>& paths);
 
