@@ -5,6 +5,8 @@ import numpy as np
 import pcrb_testing_data as maths
 from geometry_msgs.msg import Pose
 
+SAME = 1e-3  # m between points that are the same
+
 
 def nearest(points, others):
     """Distance to, and index of, each point's nearest other one."""
@@ -30,16 +32,30 @@ def principal_axes(points):
     return np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2].T
 
 
-def best_motion(source, target):
-    """T_target_source between two parts of one scan, and the mean distance of most points: by principal axes, then ICP."""
+def rotations(source, target, others):
+    """Those that put principal axes on principal axes, then others of no preference."""
     axes, images = principal_axes(source), principal_axes(target)
-    found = []
     for signs in np.ndindex(2, 2, 2):
         R = images @ np.diag([1 - 2 * sign for sign in signs]) @ axes.T
         if np.linalg.det(R) > 0:
-            start = maths.transform(R, target.mean(axis=0) - R @ source.mean(axis=0))
-            found.append(iterate_closest_points(source, target, start, kept=0.8))
-    return min(found, key=lambda result: result[1])
+            yield R
+    random = np.random.default_rng(1)
+    for _ in range(others):
+        yield maths.axis_angle(random.normal(size=3), random.uniform(0, np.pi))
+
+
+def best_motion(source, target, starts=0):
+    """T_target_source between two parts of one scan, and the mean distance of most points: by principal axes, then ICP.
+
+    Axes of a part may be others than those of the whole: so many further starts.
+    """
+    best = None, math.inf
+    for R in rotations(source, target, starts):
+        start = maths.transform(R, target.mean(axis=0) - R @ source.mean(axis=0))
+        best = min(best, iterate_closest_points(source, target, start, kept=0.8), key=lambda result: result[1])
+        if best[1] < SAME:
+            break
+    return best
 
 
 def same_scan(source, remembered):
@@ -48,16 +64,16 @@ def same_scan(source, remembered):
         return None
     if len(source) == len(remembered):
         T = maths.rigid_fit(source, remembered)
-        if np.abs(maths.moved(T, source) - remembered).max() < 1e-3:
+        if np.abs(maths.moved(T, source) - remembered).max() < SAME:
             return T
     T, distance = best_motion(source, remembered)
-    return T if distance < 1e-3 else None
+    return T if distance < SAME else None
 
 
 def same_part(part, scan):
     """The motion from a scan to a part of it that was moved."""
-    T, distance = best_motion(part, scan)
-    if distance > 1e-3:
+    T, distance = best_motion(part, scan, starts=300)
+    if distance > SAME:
         raise AssertionError(f'these are no points of that scan: {distance:g} m')
     return np.linalg.inv(T)
 
