@@ -111,7 +111,7 @@ class BridgeTestCase(TestCase):
             localizer.initialise(maths.from_pose(problem.initial_guess), covariance)
             scan = maths.points_of(client.newest['source'])
             for k in range(updates):
-                pose = localizer.update(scan, 0.05 * (k + 1))
+                pose = localizer.update(scan, 0.05 * k)
             client.submit(problem, maths.fill_pose(Pose(), pose))
         self.client(server).serve(server, answer)
         self.assert_ends_well(server)

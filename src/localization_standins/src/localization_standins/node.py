@@ -6,6 +6,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from localization_standins.geometry import from_quaternion, moved, to_quaternion
 from sensor_msgs.msg import PointCloud2
 
+TF_LIMIT = rospy.Duration(5.0)  # for a link that is under way, on a busy machine, too
 DTYPES = {7: np.float32, 8: np.float64}
 
 
@@ -78,10 +79,10 @@ class Node:
         if self.algorithm is None or self.initial is None:
             return False
         if not self.is_initialised:
-            pose, message = self.initial.pose, self.initial
+            pose = self.initial.pose
             self.is_initialised = True
             self.algorithm.initialise(matrix_of(pose.pose.position, pose.pose.orientation),
-                                      np.reshape(pose.covariance, (6, 6)), message.header.stamp.to_sec())
+                                      np.reshape(pose.covariance, (6, 6)), stamp.to_sec())
             self.start(stamp)
         return True
 
@@ -93,7 +94,7 @@ class Node:
             return
         try:
             link = self.tf.lookup_transform(self.base_frame, cloud.header.frame_id, cloud.header.stamp,
-                                            rospy.Duration(0.5)).transform
+                                            TF_LIMIT).transform
         except tf2_ros.TransformException as error:
             rospy.logwarn('scan dropped: %s', error)
             return
