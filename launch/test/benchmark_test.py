@@ -86,7 +86,7 @@ class BenchmarkTest(TestCase):
     def test_a_method_that_does_not_exist_ends_the_launch_at_once_and_locks_no_run(self):
         arguments = {'root': self.data.root, 'run': self.path('run'), 'sequences': 'kitchen'}
         launch = self.start(Launch('benchmark.launch', **arguments, method='gipc'))
-        launch.wait(limit=40.0)  # the server would wait for a client for 60 s
+        launch.wait()
         self.assertRegex(launch.output(), r"found 'gipc', expected one of do_nothing, fgr, gicp, gicp_pcl, icp")
         self.assertNotIn('no client called', launch.output())
         launch = self.start(Launch('benchmark.launch', **arguments, method='icp'))

@@ -37,7 +37,7 @@ class RealScansTest(TestCase):
         """The rows of a run by sequence."""
         run = self.path('run')
         launch = self.start(Launch('benchmark.launch', root=self.root, run=run, method='gicp', time_limit=60, **arguments))
-        launch.wait(limit=200.0)
+        launch.wait(limit=1200.0)
         self.assertTrue(os.path.exists(os.path.join(run, 'summary.txt')), launch.output())
         by_sequence = {}
         for row in rows(run):

@@ -81,7 +81,7 @@ class WalksTest(TestCase):
     def walk(self, script, **variables):
         """What a script printed that must end well."""
         child = self.shell(script, **variables)
-        self.assertEqual(child.wait(300), 0, child.output())
+        self.assertEqual(child.wait(1200), 0, child.output())
         return child.output()
 
     def write(self, name, text):
