@@ -9,6 +9,7 @@ import rostest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import Child, TestCase, executable, wait_until
+from pcrb_testing_client import Client
 
 
 class ClientsTest(TestCase):
@@ -23,7 +24,7 @@ class ClientsTest(TestCase):
         return self.start(Child([executable('pcrb_tools', 'registration_node')], server.namespace))
 
     def test_a_client_that_dies_and_comes_back_costs_at_most_the_problem_in_flight(self):
-        server = self.server(self.data, time_limit=2.0)
+        server = self.server(self.data, time_limit=15.0)
         client = self.registration_node(server)
         wait_until(lambda: len(server.rows()) >= 3, 'three problems are done')
         client.kill()
@@ -35,7 +36,7 @@ class ClientsTest(TestCase):
         self.assertGreaterEqual(outcomes.count('replied'), len(outcomes) - 1)
 
     def test_a_method_that_throws_fails_those_problems_only_and_is_made_anew(self):
-        server = self.server(self.data, time_limit=10.0)
+        server = self.server(self.data, time_limit=60.0)
         parameters = self.path('none.yaml')
         with open(parameters, 'w') as file:
             file.write('{}\n')
@@ -89,18 +90,20 @@ class ClientsTest(TestCase):
             self.assertEqual(row['error'], row['initial_misalignment'])
 
     def test_a_client_that_never_comes_is_an_error_that_names_the_service_and_who_listens(self):
-        server = self.server(self.data, connect_limit=0.5)
-        self.client(server)  # subscribes, and does not call ready
-        self.assert_fails(server, f'no client called `{server.namespace}/ready` within 0.5', rospy.get_name())
+        client = Client('/listened')  # subscribes, and does not call ready
+        self.addCleanup(client.close)
+        server = self.server(self.data, namespace='/listened', connect_limit=10.0)
+        wait_until(client.has_new_problem, 'the client listens')
+        self.assert_fails(server, f'no client called `{server.namespace}/ready` within 10 s', rospy.get_name())
         self.assertEqual(server.rows(), [])
 
     def test_a_client_that_leaves_for_good_is_an_error_and_what_was_done_is_kept(self):
-        server = self.server(self.data, ready_limit=0.5)
+        server = self.server(self.data, ready_limit=10.0)
         client = self.client(server)
         client.serve(server, limit=3)
-        self.assert_fails(server, 'within 0.5', 'start again with the same ~run')
+        self.assert_fails(server, 'within 10 s', 'start again with the same ~run')
         self.assertEqual(len(server.rows()), 3)
-        server = self.start(server.again())
+        server = self.start(server.again(ready_limit=60.0))
         client.serve(server)
         self.assert_ends_well(server)
         self.assert_rows_of(server.run, self.data.of('local'))

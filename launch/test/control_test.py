@@ -100,7 +100,7 @@ class ControlTest(TestCase):
         self.assertNotEqual(*orders)  # there are some 700000
 
     def test_latched_topics_reach_who_comes_late(self):
-        server = self.server(self.data, summary_hold_time=60.0)
+        server = self.server(self.data, summary_hold_time=240.0, time_limit=240.0)
         early = self.client(server)
         problem = early.next_problem()
         early.take_source(problem)

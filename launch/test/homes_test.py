@@ -66,9 +66,9 @@ class HomesTest(TestCase):
         self.assert_rows_of(run, self.data.of('local', 'kitchen'))
 
     def test_a_client_in_another_namespace_is_named(self):
-        server = self.server(self.data, connect_limit=0.5)
         client = Client('/pcrb')
         self.addCleanup(client.close)
+        server = self.server(self.data, connect_limit=0.5)
         self.assert_fails(server, rf'no client called `{server.namespace}/ready`.*nobody; '
                                   rf'but {rospy.get_name()} subscribes to /pcrb/problem')
 

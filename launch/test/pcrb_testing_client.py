@@ -17,9 +17,9 @@ class Client:
         self.newest = {}
         self.results = {}
         self._last_stamp = None
-        self._subscribers = [
-            rospy.Subscriber(f'{namespace}/{topic}', kind, self._take, topic, tcp_nodelay=True)
-            for topic, kind in self.TOPICS.items()]
+        self._subscribers = {
+            topic: rospy.Subscriber(f'{namespace}/{topic}', kind, self._take, topic, tcp_nodelay=True)
+            for topic, kind in self.TOPICS.items()}
         self._ready = rospy.ServiceProxy(f'{namespace}/ready', Ready)
         self._submit = rospy.ServiceProxy(f'{namespace}/submit_pose', SubmitPose)
 
@@ -29,7 +29,7 @@ class Client:
             self.results[message.problem_id] = message
 
     def close(self):
-        for subscriber in self._subscribers:
+        for subscriber in self._subscribers.values():
             subscriber.unregister()
 
     def has_new_problem(self):
@@ -46,6 +46,8 @@ class Client:
         return topic in self.newest and self.newest[topic].header.stamp == stamp
 
     def ready(self, problem):
+        """Once results will be heard: they are not latched."""
+        wait_until(self._subscribers['result'].get_num_connections, 'the server has a listener for its results')
         return self._ready(problem.problem_id)
 
     def take_source(self, problem, is_over=lambda: False):
