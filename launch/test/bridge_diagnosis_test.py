@@ -10,7 +10,10 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from pcrb_testing import Child, executable, select
 from pcrb_testing_bridge import MOTION, AnsweringTestCase
 
-STAMP = r'^stamp: \d+ poses? with the stamp of no scan, 0\.\d+ s later'
+STAMP = r'^stamp: \d+ poses? with the stamp of no scan, \d+\.\d+ s later'
+GIVES_UP = {'deadline_fraction': 0.1}  # after 4 s of the server's 40
+# An answer 0.2 s ahead has the stamp of no other scan, however late it comes.
+BETWEEN = {'scan_period': 0.3, 'answer_limit': 0.3}
 DIAGNOSES = {
     'now': STAMP,
     'ahead': r'^stamp: \d+ poses? with the stamp of no scan, 0\.200 s later: set ~answer_delay:=0\.200$',
@@ -29,11 +32,11 @@ class BridgeDiagnosisTest(AnsweringTestCase):
         return self.start(Child([executable('localization_standins', 'ill_mannered_localizer'), f'_manner:={manner}',
                                  *(f'{own}:={robot}/{topic}' for own, topic in remaps.items())], robot))
 
-    def run_with(self, manner, subset=1, time_limit=1.5, **parameters):
+    def run_with(self, manner, subset=1, time_limit=40.0, **parameters):
         """Rows of a run with the node, and what the bridge printed."""
         server = self.localization(run=manner, sequences='kitchen', subset=subset, time_limit=time_limit)
         node = self.ill_mannered(server, manner)
-        bridge = self.bridge(server, answer_limit=0.2, **parameters)
+        bridge = self.bridge(server, **{'answer_limit': 0.2, **GIVES_UP, **parameters})
         rows = list(self.rows_of_bridge(server, bridge).values())
         node.interrupt()  # in order: the master forgets what it published
         node.wait()
@@ -41,20 +44,20 @@ class BridgeDiagnosisTest(AnsweringTestCase):
 
     def test_each_bad_manner_has_its_diagnosis_as_the_reason_and_at_the_end(self):
         for manner, diagnosis in DIAGNOSES.items():
-            (row,), output = self.run_with(manner)
+            (row,), output = self.run_with(manner, **BETWEEN)
             self.assertEqual(row['outcome'], 'timed_out', manner)
             self.assertRegex(row['reason'], diagnosis)
             code = row['reason'].split(':')[0]
             self.assertRegex(output, rf'problems without an answer, by cause .*\n  1 × {code}: ')
 
     def test_a_wrong_topic_is_refused_before_a_problem_counts(self):
-        server = self.localization(run='elsewhere', sequences='kitchen', subset=2, time_limit=6.0)
+        server = self.localization(run='elsewhere', sequences='kitchen', subset=2, time_limit=40.0)
         self.ill_mannered(server, 'elsewhere')
-        self.assert_fails(self.bridge(server, answer_limit=0.2), TOPIC)
+        self.assert_fails(self.bridge(server, answer_limit=0.2, **GIVES_UP), TOPIC)
         self.assertEqual(server.rows(), [])
         somewhere = f'{server.namespace}/robot/somewhere'
         rows = self.rows_of_bridge(server, self.bridge(server, settle='first', pose_topic=somewhere))
-        # A server that goes on alone, as here and in no launch file, waits for the first problem in vain.
+        # A server that goes on alone, as here and in no launch file, may wait for the first problem in vain.
         outcomes = [row['outcome'] for row in rows.values()]
         self.assertEqual((len(outcomes), set(outcomes) - {'timed_out'}), (2, {'replied'}))
 
@@ -71,21 +74,23 @@ class BridgeDiagnosisTest(AnsweringTestCase):
         self.assertIn('the node under test has left', output)
 
     def test_a_node_that_takes_the_correction_for_motion_shows_which_answer_was_good(self):
-        rows, output = self.run_with('velocity', subset=2, time_limit=30.0, settle='nth', settle_count=20)
+        rows, output = self.run_with('velocity', subset=2, settle='nth', settle_count=20, answer_limit=5.0,
+                                     deadline_fraction=0.9, initialpose_settle=1.0)
         for row in rows:
             self.assertGreater(row['error'], row['initial_misalignment'])
-            first = select(self.path('velocity'), 'scan', f"SELECT * FROM scan WHERE problem_id = '{row['problem_id']}' AND scan = 1")
+            first = select(self.path('velocity'), 'scan', f"SELECT * FROM scan WHERE problem_id = '{row['problem_id']}' "
+                           'AND error IS NOT NULL ORDER BY scan')
             self.assertLess(first[0]['error'], row['initial_misalignment'])
         self.assertIn('warning: the median error of', output)
         with open(self.path('velocity', 'summary.txt'), encoding='utf-8') as file:
             self.assertRegex(file.read(), r'worse than that: 2 of 2 replies.*\nwarning: the replies are worse than doing nothing')
 
     def test_the_advice_helps(self):
-        (row,), _ = self.run_with('ahead', answer_delay=0.2, settle='first')
+        (row,), _ = self.run_with('ahead', answer_delay=0.2, settle='first', deadline_fraction=0.9, **BETWEEN)
         self.assertEqual(row['outcome'], 'replied', row)
 
     def test_the_second_problem_that_fails_alike_is_told_at_once(self):
-        rows, output = self.run_with('silent', subset=3)
+        rows, output = self.run_with('silent', subset=3, deadline_fraction=0.05)
         self.assertEqual(len(rows), 3)
         self.assertEqual(output.count('two problems without an answer, alike: the node said nothing to'), 1, output)
         self.assertRegex(output, r'\n  3 × silent: ')
