@@ -48,8 +48,9 @@ class OwnDataTest(TestCase):
         messages = []
         subscribers = [rospy.Subscriber(topic, kind, lambda message, topic=topic: messages.append((topic, message)))
                        for topic, kind in TOPICS.items()]
-        rospy.set_param('/replayed/replay', {'root': root, 'sequence': 'eth/apartment', 'autostart': False, 'rate': 100})
-        self.start(Child([executable('pcrb_server', 'replay')], '/replayed'))
+        rospy.set_param('/replayed/replay', {'root': root, 'sequence': 'eth/apartment', 'autostart': False, 'rate': 100,
+                                             'keep_alive': True})
+        replay = self.start(Child([executable('pcrb_server', 'replay')], '/replayed'))
         rospy.wait_for_service('/replayed/replay/step', 60)
         step = rospy.ServiceProxy('/replayed/replay/step', Trigger)
 
@@ -62,6 +63,8 @@ class OwnDataTest(TestCase):
                 wait_until(lambda topic=topic, wanted=i + 1: number_of(topic) >= wanted, f'{i + 1} messages on {topic}')
         for subscriber in subscribers:
             subscriber.unregister()
+        replay.interrupt()
+        self.assert_ends_well(replay)
         with rosbag.Bag(bag, 'w') as file:
             for topic, message in messages:
                 stamp = message.header.stamp if hasattr(message, 'header') else message.transforms[0].header.stamp
