@@ -6,6 +6,7 @@ import socket
 import subprocess
 import time
 
+from pcrb_testing_ports import free_ports
 from pcrb_testing_wait import wait_until
 
 REVOCATION = 3.0  # s
@@ -48,17 +49,6 @@ def missing_programs():
     return [name for name in PROGRAMS if not shutil.which(name, path=path)]
 
 
-def _free_ports(count):
-    sockets = [socket.socket() for _ in range(count)]
-    try:
-        for each in sockets:
-            each.bind(('127.0.0.1', 0))
-        return [each.getsockname()[1] for each in sockets]
-    finally:
-        for each in sockets:
-            each.close()
-
-
 class Cluster:
     """Starts its daemons as children of a test, which ends them."""
 
@@ -86,7 +76,7 @@ class Cluster:
     def _write_files(self):
         with open(os.open(self.path('munge.key'), os.O_CREAT | os.O_WRONLY, 0o400), 'wb') as file:
             file.write(os.urandom(128))
-        controller_port, node_port = _free_ports(2)
+        controller_port, node_port = free_ports(2)
         with open(self.path('slurm.conf'), 'w') as file:
             file.write(CONFIGURATION.format(
                 host=socket.gethostname().split('.')[0], user=pwd.getpwuid(os.geteuid()).pw_name, folder=self.folder,
