@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """evaluate.sbatch on a real Slurm: one node, several tasks; preempted, killed, failed."""
+import csv
 import os
 import re
 import signal
@@ -11,7 +12,7 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, rows, sessions, wait_until
+from pcrb_testing import Child, TestCase, rows, run_info, sessions, wait_until
 from pcrb_testing_slurm import Cluster, missing_programs
 
 LIMIT = 60.0  # s
@@ -80,6 +81,17 @@ class SlurmTest(TestCase):
         self.assertIn('task 1: failed; requeued', self.log('shard_1.log'))
         self.assertRegex(self.log('merge.log'), 'total +local +180')
         self.assertTrue(os.path.exists(os.path.join(self.run, 'report', 'index.html')))
+
+    def test_a_sweep_is_a_run_for_each_value_and_one_report(self):
+        data = maths.make_data_set(self.path('root'), points=300)
+        self.submit(data, '--shards', '2', '--sweep', 'voxel_leaf=0.1,0.2', method='icp', sequences='hall')
+        self.wait_for_jobs()
+        for value in '0.1', '0.2':
+            run = os.path.join(self.run, f'voxel_leaf={value}')
+            self.assert_rows_of(run, data.of('local', 'hall'))
+            self.assertIn(f'\nvoxel_leaf: {value}\n', run_info(run)['client_parameters'])
+        with open(os.path.join(self.run, 'report', 'tables', 'local_sweeps.csv')) as file:
+            self.assertEqual([row['value'] for row in csv.DictReader(file)], ['0.1', '0.2'])
 
     def test_a_task_that_keeps_failing_is_given_up_and_the_last_job_names_it(self):
         data = maths.make_data_set(self.path('root'), points=300)
