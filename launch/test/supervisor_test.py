@@ -2,10 +2,12 @@
 """localization.launch with a node that dies, hangs, or is started anew on purpose."""
 import os
 import signal
+import subprocess
 import sys
 import xmlrpc.client
 
 import rosgraph
+import rospkg
 import rospy
 import rostest
 
@@ -136,6 +138,30 @@ class SupervisorTest(BridgeTestCase):
         self.assertRegex(launch(steps=30), r'client_parameters: the run has `node file mine\.launch: [0-9a-f]{16}, node '
                          r'/ndt_localizer/steps: 20`, asked for `node file mine\.launch: [0-9a-f]{16}, node /ndt_localizer/steps: 30`')
         self.assertNotIn('client_parameters: ', launch(steps=20))
+
+    def write(self, name, text):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), 'w', encoding='utf-8') as out:
+            out.write(text)
+
+    def test_a_nodelets_library_is_noted_from_a_file_of_plugins_with_one_library_after_the_other(self):
+        for package, export in (('nodelet', ''), ('nodelets', '<export><nodelet plugin="${prefix}/plugins.xml"/></export>')):
+            self.write(f'{package}/package.xml', f'''<package><name>{package}</name><version>1.0.0</version><description>x</description>
+<maintainer email="a@b.org">a</maintainer><license>BSD</license>{export}</package>''')
+        self.write('nodelet/nodelet', '#!/bin/sh\n')
+        os.chmod(self.path('nodelet/nodelet'), 0o755)
+        self.write('nodelets/plugins.xml', '<library path="lib/libfirst"></library>\n<library path="lib/libsecond"></library>\n')
+        self.write('lib/libsecond.so', 'of a nodelet')
+        self.write('mine.launch', '<launch><node name="localizer" pkg="nodelet" type="nodelet" args="standalone nodelets/X"/></launch>')
+        script = os.path.join(rospkg.RosPack().get_path('pcrb_server'), 'scripts', 'describe_launch.py')
+        folder = os.path.dirname(self.path('mine.launch'))
+        described = subprocess.run(
+            [sys.executable, script, '/described', self.path('mine.launch')], stderr=subprocess.PIPE, universal_newlines=True, check=False,
+            env=dict(os.environ, ROS_PACKAGE_PATH=folder + os.pathsep + os.environ['ROS_PACKAGE_PATH'],
+                     CMAKE_PREFIX_PATH=folder + os.pathsep + os.environ['CMAKE_PREFIX_PATH']))
+        self.assertEqual(described.returncode, 0, described.stderr)
+        noted = [line.split(': ')[0] for line in rospy.get_param('/described')]
+        self.assertEqual(noted, ['file mine.launch', 'program libsecond.so', 'program nodelet/nodelet'])
 
     def test_it_does_not_outlive_the_process_that_started_it(self):
         rospy.set_param('/orphan/node_supervisor', {'launch': 'localization_standins ndt_localizer.launch'})

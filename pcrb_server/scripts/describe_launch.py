@@ -11,7 +11,6 @@ import hashlib
 import os
 import re
 import sys
-import xml.etree.ElementTree
 
 import rosgraph
 import roslaunch
@@ -94,9 +93,18 @@ def libraries_of(node):
         files = rospkg.RosPack().get_manifest(nodelet[1]).get_export('nodelet', 'plugin')
     except rospkg.ResourceNotFound as error:
         raise NotFound(f'found no package `{error.args[0]}`, expected one of a workspace that is sourced') from error
-    names = [library.get('path') + '.so' for file in files for library in xml.etree.ElementTree.parse(file).iter('library')]
+    names = [f'{path}.so' for file in files for path in library_paths(file)]
     places = os.environ.get('CMAKE_PREFIX_PATH', '').split(os.pathsep)
     return [path for name in names for place in places for path in [os.path.join(place, name)] if os.path.isfile(path)]
+
+
+def library_paths(file):
+    """Paths of the libraries of a file of plugins. pluginlib reads those that are no XML, too: one <library> after the other."""
+    try:
+        with open(file, encoding='utf-8', errors='replace') as plugins:
+            return re.findall(r'<library\s[^>]*?\bpath\s*=\s*["\']([^"\']+)', plugins.read())
+    except OSError as error:
+        raise NotFound(f'found no file of plugins {file}, expected one: {error.strerror}') from error
 
 
 def shown(value):
