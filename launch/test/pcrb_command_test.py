@@ -14,6 +14,7 @@ import rostest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import Child, TestCase, executable, front_door, rows, run_info
+from pcrb_testing_terminal import Terminal
 
 COMMANDS = ('prepare fetch convert overlap sample map import-protocol check run localize probe paper score report compare merge ground-truth replay bag demo '
             'doctor recipes completion options').split() + [f'convert {name}' for name in ('eth', 'planetary', 'tum', 'kaist')]
@@ -132,6 +133,14 @@ class PcrbCommandTest(TestCase):
             os.close(mine)
         self.assertEqual(process.returncode, 0, text)
         self.assertRegex(text.decode(), r'icp, kitchen: \d+/12 problems \(\d+ %\), [\d.]+ problems/s')
+
+    def test_colours_are_on_a_terminal_only_where_they_are_not_unwanted(self):
+        def shown(**variables):
+            terminal = Terminal([front_door(), '--help'], **{'TERM': 'xterm', 'NO_COLOR': '', **variables})
+            self.assertEqual(terminal.wait(), 0, terminal.text)
+            return terminal.text
+        self.assertIn('\033[1mRuns\033[0m', shown())
+        self.assertNotIn('\033', shown(NO_COLOR='1') + shown(TERM='dumb') + pcrb('--help').stdout + pcrb('--hlep').stderr)
 
     def test_values_that_look_like_numbers_stay_text(self):
         for name in 'kitchen_local.txt', 'kitchen':
