@@ -142,6 +142,11 @@ class PcrbCommandTest(TestCase):
         self.assertIn('\033[1mRuns\033[0m', shown())
         self.assertNotIn('\033', shown(NO_COLOR='1') + shown(TERM='dumb') + pcrb('--help').stdout + pcrb('--hlep').stderr)
 
+    def test_a_reader_that_leaves_is_no_error(self):
+        for words in '--help', 'options':
+            result = subprocess.run(['bash', '-c', f'{front_door()} {words} | true'], stderr=subprocess.PIPE, encoding='utf-8', check=True)
+            self.assertEqual(result.stderr, '')
+
     def test_values_that_look_like_numbers_stay_text(self):
         for name in 'kitchen_local.txt', 'kitchen':
             os.rename(os.path.join(self.data.root, 'rooms', name), os.path.join(self.data.root, 'rooms', name.replace('kitchen', '00')))

@@ -19,7 +19,9 @@ GROUPS = {'data': 'Data', 'run': 'Runs', 'results': 'Results', 'look': 'Look at 
 def main(words):
     sys.stdout.reconfigure(errors='surrogateescape')  # a path may be of any bytes
     try:
-        return dispatch(words)
+        status = dispatch(words)
+        sys.stdout.flush()
+        return status
     except UsageError as error:
         for mistake in error.mistakes:
             complain(mistake)
@@ -27,13 +29,13 @@ def main(words):
     except NotBuilt as error:
         complain(str(error))
         return 1
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
     except Exception as error:
         if not type(error).__module__.startswith('pcrb.'):
             raise
         complain(str(error))  # of the core: a file and what is wrong with it
-        return 1
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except KeyboardInterrupt:
         return 130
