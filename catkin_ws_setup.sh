@@ -41,7 +41,7 @@ declare -A noetic_names=(
 )
 # Only .ci/run asks for these: catkin_ws_setup.sh deps --ci
 ci_debian_packages=(catkin-lint chromium clang clang-format clang-tidy debootstrap iproute2 libclang-rt-14-dev locales munge
-  doxygen python3-pip python3-setuptools python3-wheel shellcheck slurm-wlm texlive-latex-recommended xvfb)
+  doxygen python3-pip python3-setuptools python3-wheel shellcheck slurm-wlm texlive-latex-recommended xvfb zsh)
 
 say() { printf '==> %s\n' "$*"; }
 

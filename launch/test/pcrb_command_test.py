@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -225,6 +226,21 @@ class PcrbCommandTest(TestCase):
         self.assertEqual(complete('pcrb', 'run', '--kind', 'lo'), ['local'])
         self.assertEqual(complete('pcrb', 'convert', 'k'), ['kaist'])
         self.assertIn('--max-rate', complete('pcrb', 'convert', 'kaist', '--max'))
+
+    def test_completion_does_the_same_in_zsh(self):
+        if shutil.which('zsh') is None:
+            self.skipTest('no zsh here')
+        script = self.path('completion.zsh')
+        with open(script, 'w', encoding='utf-8') as file:
+            file.write(pcrb('completion', 'zsh').stdout)
+        terminal = Terminal(['zsh', '-f', '-i'], TERM='dumb', HOME=os.path.dirname(script))
+        terminal.press(f"source '{script}'; print re''ady\n")  # what is typed is shown, too
+        terminal.wait_for('ready')
+        for typed, completed in (('pcrb doc', 'pcrb doctor'), ('pcrb run --sub', 'pcrb run --subset'),
+                                 ('pcrb run --kind lo', 'pcrb run --kind local'), ('pcrb convert k', 'pcrb convert kaist')):
+            terminal.press(f'\x15{typed}\t')  # in place of the line before
+            terminal.wait_for(completed)
+        self.assertNotIn('not found', terminal.text)
 
     def test_the_table_of_options_is_that_of_the_documents_and_no_word_means_two_things(self):
         table = pcrb('options').stdout

@@ -81,9 +81,13 @@ def completion(shell):
     formats = [command.name.split()[1] for command in COMMANDS if ' ' in command.name]
     behind = [f'    {name}) COMPREPLY=($(compgen -W "{" ".join(sorted(words))}" -- "$word")); return ;;'
               for name, words in sorted(choices.items())]
-    head = 'autoload -U +X bashcompinit && bashcompinit\n' if shell == 'zsh' else ''
-    return head + BASH.format(names=' '.join(names), cases='\n'.join(cases), behind='\n'.join(behind), formats=' '.join(formats))
+    return (ZSH if shell == 'zsh' else '') + BASH.format(names=' '.join(names), cases='\n'.join(cases), behind='\n'.join(behind), formats=' '.join(formats))
 
+
+ZSH = '''\
+(( $+functions[compdef] )) || { autoload -U +X compinit && compinit; }
+autoload -U +X bashcompinit && bashcompinit
+'''
 
 BASH = '''\
 _pcrb() {{
