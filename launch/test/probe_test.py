@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """pcrb probe: what a node takes and says becomes the recipe that fits; what cannot be told is said."""
 import os
+import signal
 import subprocess
 import sys
 
@@ -8,7 +9,16 @@ import rostest
 import yaml
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pcrb_testing import TestCase, front_door
+from pcrb_testing import Child, TestCase, front_door, wait_until
+from pcrb_testing_terminal import command_lines
+
+SILENT = [front_door(), 'probe', '--node', 'localization_standins ill_mannered_localizer.launch', '--node-args', 'manner=silent']
+
+
+def wait_for_node(mark):
+    """And for the master that it was started with."""
+    for name in 'rosmaster', '__name:=ill_mannered_localizer':
+        wait_until(lambda n=name: any(n in line for line in command_lines(mark).values()), f'{name} is there')
 
 
 class ProbeTest(TestCase):
@@ -59,6 +69,13 @@ class ProbeTest(TestCase):
         _, _, text = self.probe('map_file', *words[:2])
         self.assertIn('another node publishes /map_cloud, which the bridge does: leave it out of the launch file; if it reads the map '
                       'from a file when it starts, give --map-file', text)
+
+    def test_a_probe_that_is_killed_leaves_no_process(self):
+        mark = self.path('of this probe')
+        probe = self.start(Child(SILENT, PCRB_MARK=mark))
+        wait_for_node(mark)
+        os.kill(probe.process.pid, signal.SIGKILL)
+        wait_until(lambda: not command_lines(mark), 'nothing is left')
 
     def test_a_launch_file_that_fails_is_an_error_with_what_it_printed(self):
         status, _, text = self.probe('no_such')

@@ -15,7 +15,7 @@ import probe_recipe
 import recipes
 from benchmarking import free_port, which
 from options import Option
-from programs import NotBuilt
+from programs import NotBuilt, program
 from words import WORDS
 
 OPTIONS = [
@@ -28,6 +28,8 @@ OPTIONS = [
     Option('start-limit', 'seconds that the node may take to start', 'number', default=60, low=1),
     Option('output', 'file or folder to write', 'path', short='o'),
 ]
+
+PATIENCE = 45  # s, longer than that of guard_launch
 
 
 def check(values):
@@ -92,7 +94,9 @@ def start_master(stack):
 
 
 def start(stack, command, output, environment=()):
-    process = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+    """A program that ends, with all that it started, when the stack is left, or when this process is killed."""
+    guard = [which('setpriv'), '--pdeathsig', 'TERM', program('guard_launch')]
+    process = subprocess.Popen([*guard, *command], stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                                start_new_session=True, env={**os.environ, **dict(environment)})
     stack.callback(end, process)
     return process
@@ -101,7 +105,7 @@ def start(stack, command, output, environment=()):
 def end(process):
     process.terminate()
     try:
-        process.wait(15)
+        process.wait(PATIENCE)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
