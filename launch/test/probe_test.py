@@ -10,7 +10,7 @@ import yaml
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from pcrb_testing import Child, TestCase, front_door, wait_until
-from pcrb_testing_terminal import command_lines
+from pcrb_testing_terminal import CTRL_C, Terminal, command_lines
 
 SILENT = [front_door(), 'probe', '--node', 'localization_standins ill_mannered_localizer.launch', '--node-args', 'manner=silent']
 
@@ -76,6 +76,15 @@ class ProbeTest(TestCase):
         wait_for_node(mark)
         os.kill(probe.process.pid, signal.SIGKILL)
         wait_until(lambda: not command_lines(mark), 'nothing is left')
+
+    def test_ctrl_c_ends_a_probe_with_one_line_and_leaves_no_process(self):
+        mark = self.path('of this probe')
+        terminal = Terminal(SILENT, PCRB_MARK=mark, NO_COLOR='1')
+        wait_for_node(mark)
+        terminal.press(CTRL_C)
+        self.assertEqual(terminal.wait(), 130, terminal.text)
+        self.assertEqual(terminal.text.split(), ['^C', 'pcrb:', 'interrupted'])
+        self.assertEqual(command_lines(mark), {})
 
     def test_a_launch_file_that_fails_is_an_error_with_what_it_printed(self):
         status, _, text = self.probe('no_such')

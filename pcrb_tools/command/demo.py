@@ -1,6 +1,7 @@
 """pcrb demo: from simulated logs of four data sets to a scored run and a report."""
 import dataclasses
 import os
+import signal
 import time
 
 import places
@@ -49,6 +50,8 @@ def prepare(folder, logs, data):
         steps.append([program('prepare_dataset'), '--logs', logs, '--root', data])
         for step in steps:
             status = run_program(step, stdout=out, stderr=out)
+            if status == 128 + signal.SIGINT:
+                raise KeyboardInterrupt
             if status != 0:
                 with open(log, encoding='utf-8') as text:
                     print(''.join(text.readlines()[-5:]), end='')

@@ -2,6 +2,7 @@
 import os
 import re
 import shutil
+import signal
 import sys
 import textwrap
 import xml.etree.ElementTree
@@ -12,7 +13,7 @@ from commands import COMMANDS
 from options import Reader, UsageError, did_you_mean
 from programs import NotBuilt
 
-USAGE_ERROR = 2
+USAGE_ERROR, INTERRUPTED = 2, 128 + signal.SIGINT
 GROUPS = {'data': 'Data', 'run': 'Runs', 'results': 'Results', 'look': 'Look at it', 'help': 'Help'}
 
 
@@ -38,7 +39,10 @@ def main(words):
         complain(str(error))  # of the core: a file and what is wrong with it
         return 1
     except KeyboardInterrupt:
-        return 130
+        if sys.stderr.isatty():
+            print(file=sys.stderr)  # below the ^C
+        complain('interrupted')
+        return INTERRUPTED
 
 
 def complain(text):

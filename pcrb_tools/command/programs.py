@@ -3,6 +3,7 @@ import dataclasses
 import functools
 import os
 import re
+import signal
 import subprocess
 import sys
 import xml.etree.ElementTree
@@ -19,14 +20,17 @@ NUMBER_LIMITS = {'POSITIVE': (1e-9, None), 'NONNEGATIVE': (0, None)}
 
 
 def run_program(command, name=None, **streams):
-    """Exit status of a program that has the terminal; an interruption is left to it."""
+    """Exit status of a program that has the terminal; an interruption is left to it. KeyboardInterrupt if that ended it."""
     with subprocess.Popen([name or command[0], *command[1:]], executable=command[0], **streams) as process:
         while True:
             try:
                 status = process.wait()
-                return status if status >= 0 else 128 - status
+                break
             except KeyboardInterrupt:
                 continue
+    if status == -signal.SIGINT:
+        raise KeyboardInterrupt
+    return status if status >= 0 else 128 - status
 
 
 def program(name, package='pcrb_tools'):
