@@ -11,7 +11,8 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import TIME_COLUMNS, Child, Launch, TestCase, executable, row_key, rows, run_info, wait_until
+from pcrb_testing import (TIME_COLUMNS, Child, Launch, TestCase, executable, gated_client, open_gate, row_key, rows, run_info,
+                          wait_until)
 
 # target_changed depends on the secret order; the others on the moment.
 OF_ONE_RUN = {'target_changed', *TIME_COLUMNS}
@@ -50,6 +51,17 @@ class BatchTest(TestCase):
 
     def shard(self, number):
         return os.path.join(self.run, 'shards', str(number))
+
+    def write(self, name, text):
+        with open(self.path(name), 'w', encoding='utf-8') as file:
+            file.write(text)
+
+    def log_of_shard(self, number):
+        path = os.path.join(self.shard(number), 'roslaunch.log')
+        if not os.path.exists(path):
+            return ''
+        with open(path, encoding='utf-8', errors='replace') as file:
+            return file.read()
 
     def wait_for_rows_of_shard(self, number, count):
         wait_until(lambda: len(rows(self.shard(number))) >= count, f'shard {number} has {count} results')
@@ -91,54 +103,69 @@ class BatchTest(TestCase):
         self.assert_fails(self.batch('--shards', '2', kind='both'), 'found `shards 3`, asked for `shards 2`')
 
     def test_an_interrupt_and_a_kill_end_all_and_the_next_one_goes_on(self):
-        self.data = maths.make_data_set(self.path('large'), points=3000, perturbations=30)
-        batch = self.batch('--jobs', '2', method='gicp')
+        gate = self.path('gate')
+        gated = {'method': None, 'client_command': gated_client(gate), 'ready_limit': 1000}
+        batch = self.batch('--jobs', '2', **gated)
         self.wait_for_rows_of_shard(1, 1)
         batch.interrupt()
         self.assert_fails(batch, 'interrupted; what is complete is kept')
         self.assertEqual(processes_that_name(self.run), [])
         before = rows(self.shard(1))
-        self.assertLess(len(before), 90)
 
-        batch = self.batch('--jobs', '2', method='gicp')
+        batch = self.batch('--jobs', '2', **gated)
         self.wait_for_rows_of_shard(1, len(before) + 1)
         batch.kill()
         killed = rows(self.shard(1))
-        self.assertLess(len(killed), 90)
-        batch = self.batch(method='gicp')
+        self.assertLess(len(killed), 30)
+        open_gate(gate)
+        batch = self.batch(**gated)
         self.assert_ends_well(batch)
         self.assert_rows_of(self.run, self.data.of('local'))
         self.assertEqual(rows(self.shard(1))[:len(killed)], killed)
         wait_until(lambda: not processes_that_name(self.run), 'all processes have ended')
 
     def test_nodes_whose_roslaunch_or_its_guard_was_killed_are_ended_and_the_shard_is_incomplete(self):
-        self.data = maths.make_data_set(self.path('large'), points=3000, perturbations=30)
+        gated = {'method': None, 'client_command': gated_client(self.path('gate')), 'ready_limit': 1000}
         for victim in '/roslaunch', '/guard_launch':
             done = len(rows(self.shard(0))) if os.path.exists(self.shard(0)) else 0
-            batch = self.batch('--jobs', '1', method='gicp')
+            batch = self.batch('--jobs', '1', **gated)
             self.wait_for_rows_of_shard(0, done + 1)
             of_shard = set(processes_that_name(f'run:={self.shard(0)}\0'))
             process, = of_shard.intersection(processes_that_name(f'{victim}\0'))
             os.kill(process, signal.SIGKILL)
-            self.assert_fails(batch, r'shard 0/1: \d+ of 180 problems have a result', 'start this again')
+            self.assert_fails(batch, r'shard 0/1: \d+ of 60 problems have a result', 'start this again')
             self.assertEqual(processes_that_name(self.run), [])
 
     def test_shards_have_map_files_of_their_own_or_are_refused(self):
         """A node that reads another shard's map would localize well, in the wrong place."""
         data = maths.make_data_set(self.path('rooms'), points=1000)
-        file = self.path('bridge.yaml')
+        file, gate = self.path('bridge.yaml'), self.path('gate')
+        self.write('gated', f"""#!/bin/sh
+while [ ! -e '{gate}' ]; do sleep 0.1; done
+exec "$@"
+""")
+        os.chmod(self.path('gated'), 0o755)
+        self.write('gated.launch', f"""<launch>
+  <arg name="map_topic"/> <arg name="scan_topic"/>
+  <node name="ndt_localizer" pkg="localization_standins" type="ndt_localizer" launch-prefix="{self.path('gated')}">
+    <remap from="map_cloud" to="$(arg map_topic)"/> <remap from="scan_cloud" to="$(arg scan_topic)"/>
+  </node>
+</launch>
+""")
         arguments = {
             'root': data.root, 'sequences': 'hall', 'subset': 2, 'settle': 'first', 'bridge_parameters': file,
-            'node_launch': 'localization_standins ndt_localizer.launch', 'pose_topic': '/ndt_pose',
+            'node_launch': self.path('gated.launch'), 'pose_topic': '/ndt_pose',
             'node_args': 'map_topic=/map ${PCRB_NONE:-scan_topic=/scan}', 'method': None}
 
         def batch(map_file):
-            with open(file, 'w') as written:
-                written.write(f'map_file: {map_file}\n')
+            self.write('bridge.yaml', f'map_file: {map_file}\n')
             return self.batch('--jobs', '2', '--launch', 'localization.launch', **arguments)
 
         fixed = self.path('map.pcd')
-        self.assert_fails(batch(fixed), fr'shard ./2: .*localization_bridge: ~map_file: found `{fixed}` in use by',
+        contending = batch(fixed)
+        wait_until(lambda: any('in use by' in self.log_of_shard(number) for number in range(2)), 'one has met the other')
+        open_gate(gate)
+        self.assert_fails(contending, fr'shard ./2: .*localization_bridge: ~map_file: found `{fixed}` in use by',
                           'the run is not complete')
         shutil.rmtree(self.run)
         self.assert_ends_well(batch('${TMPDIR}/map.pcd'))

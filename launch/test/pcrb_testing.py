@@ -7,6 +7,7 @@ import contextlib
 import itertools
 import os
 import re
+import shlex
 import shutil
 import signal
 import sqlite3
@@ -34,6 +35,16 @@ def executable(package, name):
 def front_door():
     """pcrb lies in the bin of the space whose lib has the programs."""
     return os.path.join(os.path.dirname(executable('pcrb_tools', 'report')), '..', '..', 'bin', 'pcrb')
+
+
+def gated_client(gate):
+    """Command of a client that gives one reply and no other until the file `gate` exists."""
+    return ' '.join(shlex.quote(word) for word in ('python3', executable('pcrb_launch', 'gated_client.py'), gate))
+
+
+def open_gate(gate):
+    with open(gate, 'w'):
+        pass
 
 
 class Child:

@@ -12,10 +12,9 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, rows, run_info, sessions, wait_until
+from pcrb_testing import Child, TestCase, gated_client, open_gate, rows, run_info, sessions, wait_until
 from pcrb_testing_slurm import Cluster, missing_programs
-
-LIMIT = 60.0  # s
+from pcrb_testing_wait import LIMIT
 
 
 class SlurmTest(TestCase):
@@ -66,12 +65,13 @@ class SlurmTest(TestCase):
         return None
 
     def test_preempted_and_killed_tasks_go_on_and_the_last_job_merges_and_reports(self):
-        data = maths.make_data_set(self.path('root'), points=3000, perturbations=30)
-        array, _ = self.submit(data, '--shards', '3', method='gicp')
-        wait_until(lambda: rows(self.shard(0)), 'shard 0 has a result', LIMIT)
+        data, gate = maths.make_data_set(self.path('root'), points=300, perturbations=10), self.path('gate')
+        array, _ = self.submit(data, '--shards', '3', client_command=gated_client(gate), ready_limit=1000)
+        wait_until(lambda: rows(self.shard(0)), 'shard 0 has a result')
         self.cluster.call('scontrol', 'requeue', f'{array}_0')
-        wait_until(lambda: rows(self.shard(1)), 'shard 1 has a result', LIMIT)
+        wait_until(lambda: rows(self.shard(1)), 'shard 1 has a result')
         os.kill(self.batch_process(1), signal.SIGKILL)
+        open_gate(gate)
         self.wait_for_jobs()
 
         self.assert_rows_of(self.run, data.of('local'))
@@ -79,7 +79,7 @@ class SlurmTest(TestCase):
             self.assertEqual(len(sessions(self.shard(number))), 2)
             self.assertIn('start 2', self.log(f'shard_{number}.log'))
         self.assertIn('task 1: failed; requeued', self.log('shard_1.log'))
-        self.assertRegex(self.log('merge.log'), 'total +local +180')
+        self.assertRegex(self.log('merge.log'), 'total +local +60')
         self.assertTrue(os.path.exists(os.path.join(self.run, 'report', 'index.html')))
 
     def test_a_sweep_is_a_run_for_each_value_and_one_report(self):
