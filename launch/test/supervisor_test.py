@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """localization.launch with a node that dies, hangs, or is started anew on purpose."""
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -29,7 +30,7 @@ def node_process():
 class SupervisorTest(BridgeTestCase):
 
     def launch(self, **arguments):
-        defaults = {'root': self.data.root, 'run': self.path('run'), 'sequences': 'hall', 'time_limit': 2.0,
+        defaults = {'root': self.data.root, 'run': self.path('run'), 'sequences': 'hall', 'time_limit': 30.0,
                     'node_launch': 'localization_standins ndt_localizer.launch',
                     'node_args': 'map_topic=/points_map scan_topic=/points_raw', 'map_topic': '/points_map',
                     'scan_topic': '/points_raw', 'pose_topic': '/ndt_pose', 'settle': 'first'}
@@ -45,8 +46,8 @@ class SupervisorTest(BridgeTestCase):
         self.assertGreaterEqual(outcomes.count('replied'), least_replied, rows(self.path('run')))
 
     def disturbed(self, number):
-        """A run whose node gets a signal after its first result; ended well, with at most two problems lost."""
-        launch = self.launch()
+        """A run whose node gets a signal after its first result, when others are due; ended well, with at most two problems lost."""
+        launch = self.launch(settle='nth', bridge_parameters=self.written('slow.yaml', 'settle_count: 20\n'), time_limit=10.0)
         self.rows_at_least(1)
         os.kill(wait_until(node_process, 'the node is there'), number)
         self.assert_finished(launch, len(self.data.of('local', 'hall')) - 2)
@@ -58,11 +59,15 @@ class SupervisorTest(BridgeTestCase):
     def test_a_node_that_hangs_is_started_anew(self):
         self.assertIn('the node under test hangs', self.disturbed(signal.SIGSTOP).output())
 
+    def written(self, name, text):
+        with open(self.path(name), 'w', encoding='utf-8') as file:
+            file.write(text)
+        return self.path(name)
+
     def processes(self, launch):
-        """The processes that the node under test was, until the run has ended."""
-        seen = set()
-        wait_until(lambda: seen.add(node_process()) or launch.ended(), 'the run ends')
-        return seen - {None}
+        """The processes that the node under test was, as roslaunch says, when the run has ended."""
+        launch.wait()
+        return set(re.findall(rf'process\[{NODE[1:]}-\d+\]: started with pid \[(\d+)\]', launch.output()))
 
     def test_a_node_may_be_started_anew_for_each_target(self):
         launch = self.launch(restart='target')
@@ -70,9 +75,7 @@ class SupervisorTest(BridgeTestCase):
         self.assert_finished(launch, len(self.data.of('local', 'hall')))
 
     def test_a_node_may_be_started_anew_for_each_problem_and_is_not_started_before(self):
-        file = self.path('restart.yaml')
-        with open(file, 'w', encoding='utf-8') as out:
-            out.write('restart: problem\n')
+        file = self.written('restart.yaml', 'restart: problem\n')
         for name, how in ('argument', {'restart': 'problem'}), ('file', {'bridge_parameters': file}):
             launch = self.launch(run=self.path(name), subset=3, **how)
             self.assertEqual(len(self.processes(launch)), 3, name)
@@ -117,8 +120,7 @@ class SupervisorTest(BridgeTestCase):
         file = self.path('mine.launch')
 
         def launch(steps):
-            with open(file, 'w', encoding='utf-8') as out:
-                out.write(f"""<launch>
+            self.written('mine.launch', f"""<launch>
   <arg name="map_topic"/> <arg name="scan_topic"/>
   <include file="$(find localization_standins)/launch/ndt_localizer.launch" pass_all_args="true"/>
   <param name="/ndt_localizer/steps" value="{steps}"/>
