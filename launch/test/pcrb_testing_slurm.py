@@ -10,6 +10,7 @@ from pcrb_testing_ports import free_ports
 from pcrb_testing_wait import wait_until
 
 REVOCATION = 3.0  # s
+UNANSWERED = 'Unable to contact slurm controller', 'timed out', 'Protocol authentication error'
 PROGRAMS = ('munged', 'munge', 'slurmctld', 'slurmd', 'sbatch', 'squeue', 'scontrol', 'sinfo')
 
 CONFIGURATION = '''
@@ -37,6 +38,8 @@ SelectTypeParameters=CR_Core
 SlurmdParameters=config_overrides
 SchedulerParameters=batch_sched_delay=0,sched_min_interval=0,bf_interval=1
 KillWait=5
+MessageTimeout=60
+TCPTimeout=30
 ReturnToService=2
 MailProg=/bin/true
 NodeName={host} NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
@@ -83,9 +86,15 @@ class Cluster:
                 controller_port=controller_port, node_port=node_port))
 
     def call(self, *command):
-        """Output of one of Slurm's commands, which must succeed."""
-        return subprocess.run(command, env={**os.environ, **self.environment}, stdout=subprocess.PIPE, text=True,
-                              check=True).stdout
+        """Output of one of Slurm's commands, which must succeed; it is given again where a daemon did not answer in time."""
+        def output():
+            done = subprocess.run(command, env={**os.environ, **self.environment}, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True)
+            is_unanswered = done.returncode < 0 or any(text in done.stderr for text in UNANSWERED)  # a signal: SIGPIPE
+            if done.returncode and not is_unanswered:
+                raise AssertionError(f'{command}: status {done.returncode}: {done.stderr}')
+            return None if is_unanswered else [done.stdout]
+        return wait_until(output, f'{command} is answered', period=0.3)[0]
 
     def _check_daemons(self):
         for daemon in self.daemons:
