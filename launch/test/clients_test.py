@@ -24,14 +24,15 @@ class ClientsTest(TestCase):
         return self.start(Child([executable('pcrb_tools', 'registration_node')], server.namespace))
 
     def test_a_client_that_dies_and_comes_back_costs_at_most_the_problem_in_flight(self):
-        server = self.server(self.data, time_limit=15.0)
+        data = maths.make_data_set(self.path('large'), points=8000, perturbations=10)  # all are not done before the client dies
+        server = self.server(data, time_limit=15.0)
         client = self.registration_node(server)
         wait_until(lambda: len(server.rows()) >= 3, 'three problems are done')
         client.kill()
         server.wait_for_output('waiting for a client to call')
         self.registration_node(server)
         self.assert_ends_well(server)
-        self.assert_rows_of(server.run, self.data.of('local'))
+        self.assert_rows_of(server.run, data.of('local'))
         outcomes = [row['outcome'] for row in server.rows()]
         self.assertGreaterEqual(outcomes.count('replied'), len(outcomes) - 1)
 
