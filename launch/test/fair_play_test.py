@@ -55,7 +55,7 @@ class FairPlayTest(TestCase):
 
     def attack(self, adversary, data, **parameters):
         """The rows of a run whose client is an adversary."""
-        server = self.server(data, run=self.path(f'run {parameters}'), sequences='kitchen', time_limit=60.0,
+        server = self.server(data, run=self.path(f'run {parameters}'), sequences='kitchen', time_limit=600.0,
                              **parameters)
         self.client(server).serve(server, adversary.answer)
         self.assert_ends_well(server)
