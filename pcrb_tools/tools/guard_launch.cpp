@@ -9,7 +9,10 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "benchmarking/child_process.hpp"
 
@@ -51,6 +54,15 @@ int guard(pid_t command) {
   return status;
 }
 
+/// The command, with a roslaunch that lies beside this program in place of the one in PATH: it is
+/// more patient.
+std::vector<std::string> withOwnRoslaunch(std::vector<std::string> command) {
+  namespace fs = std::filesystem;
+  const fs::path own = fs::read_symlink("/proc/self/exe").parent_path() / "roslaunch";
+  if (command.front() == "roslaunch" && fs::exists(own)) command.front() = own.string();
+  return command;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -64,8 +76,8 @@ int main(int argc, char** argv) {
   for (const int caught : {SIGINT, SIGTERM}) std::signal(caught, note);
   pcrb_tools::becomeSubreaper();
   pcrb::ProgramStart start;
-  start.command = {argv + 1, argv + argc};
   try {
+    start.command = withOwnRoslaunch({argv + 1, argv + argc});
     return guard(pcrb::startProgram(start));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "guard_launch: %s\n", error.what());
