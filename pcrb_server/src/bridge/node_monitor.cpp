@@ -14,7 +14,7 @@ namespace pcrb {
 
 namespace {
 
-constexpr double kSupervisorLimit = 30.0;  // s for the supervisor to come up
+constexpr double kSupervisorLimit = 60.0;  // s for the supervisor to come up
 constexpr double kQuestionLimit = 0.1;     // s to find out whether there is one
 constexpr double kLifeLimit = 2.0;  // s for a node that did not answer a problem to show life
 constexpr double kPidLimit = 2.0;   // s for a node to say which process it is

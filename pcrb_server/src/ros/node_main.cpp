@@ -82,7 +82,7 @@ namespace {
 
 constexpr double kClockLimit = 5.0;   // s to wait for /clock
 constexpr double kMasterLimit = 0.5;  // s to wait for the master at the start
-constexpr double kNodeLimit = 2.0;    // s to wait for a node that may run under our name
+constexpr double kNodeLimit = 10.0;   // s to wait for a node that may run under our name
 
 /// The master would shut down a node that runs under our name.
 void requireFreeName(const std::string& name) {

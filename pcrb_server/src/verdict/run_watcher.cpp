@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kListenPeriod = 0.1;  // s
 constexpr double kLookPeriod = 0.5;    // s between looks for the nodes
-constexpr double kStartLimit = 30.0;   // s until a node's process has registered
+constexpr double kStartLimit = 60.0;   // s until a node's process has registered
 constexpr int kAbsences = 3;  // looks in vain, during which the last message of a server arrives
 
 double secondsBetween(std::chrono::steady_clock::time_point from,
