@@ -67,6 +67,7 @@ class ParametersTest(TestCase):
             launch = self.start(Launch(file, **others, subst='5'))
             launch.wait()
             self.assertRegex(launch.output(), rf'found `subst:=5`, expected arguments of \S*/{file}: .*\broot\b')
+            self.assertEqual(launch.output().count('expected arguments of'), 1, 'said once, not by each node')
         self.assertFalse(os.path.exists(self.path('run')))
 
     def test_arguments_that_look_like_numbers_are_text_in_every_launch_file(self):

@@ -3,6 +3,7 @@
 // it refuses what roslaunch takes without a word: arguments that the launch file does not have.
 
 #include <ros/package.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,6 +68,30 @@ void requireKnownArguments(pid_t roslaunch) {
   if (package == "pcrb_launch" || isOfSuite(given.launch)) pcrb_tools::requireKnownArguments(given);
 }
 
+/// The folder of logs of the launch, as it tells its nodes; empty where it does not.
+std::filesystem::path logFolder(char** command) {
+  const std::string name = "__log:=";
+  for (; *command != nullptr; ++command) {
+    const std::string word = *command;
+    if (word.rfind(name, 0) == 0)
+      return std::filesystem::path(word.substr(name.size())).parent_path();
+  }
+  return {};
+}
+
+/// Says why the launch ends, unless another of its nodes has said so: a file beside their logs
+/// keeps it.
+void say(const std::string& text, pid_t roslaunch, char** command) {
+  const auto folder = logFolder(command);
+  const auto path = folder / ("refused_launch-" + std::to_string(roslaunch) + ".log");
+  std::FILE* const log = folder.empty() ? nullptr : std::fopen(path.c_str(), "a+");
+  const bool is_open = log != nullptr && flock(fileno(log), LOCK_EX) == 0;
+  const bool is_said = is_open && std::fseek(log, 0, SEEK_END) == 0 && std::ftell(log) > 0;
+  if (!is_said) std::fprintf(stderr, "%s\n", text.c_str());
+  if (!is_said && is_open) std::fprintf(log, "%s\n", text.c_str());
+  if (log != nullptr) std::fclose(log);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -83,7 +108,7 @@ int main(int argc, char** argv) {
   try {
     requireKnownArguments(roslaunch);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    say(error.what(), roslaunch, command);
     kill(roslaunch, SIGINT);
     return 2;
   }
