@@ -161,8 +161,6 @@ def figures_of(section):
                "Wilcoxon's signed-rank test shows no difference after Holm's correction.")
 
 
-LAST_LATIN = '\u017e'  # of the letters that LaTeX's usual fonts have
-UNBROKEN = 14  # letters, as in the tables
 ENVIRONMENT = '''\\begin{figure}[p]
 \\centering
 \\includegraphics[width=%s\\linewidth,height=0.85\\textheight,keepaspectratio]{figures/%s.pdf}
@@ -174,13 +172,15 @@ ENVIRONMENT = '''\\begin{figure}[p]
 '''
 
 
-def latex(text, letters):
-    """A text as LaTeX reads it, by what the report says of letters; those that its usual fonts lack are `?`. Long words may be broken."""
-    def pieces(word):
-        return [word[i:i + UNBROKEN] for i in range(0, len(word), UNBROKEN)] or ['']
-    words = ('\\hspace{0pt}'.join(''.join(letters.get(c, c if ' ' <= c <= LAST_LATIN else '?') for c in piece) for piece in pieces(word))
-             for word in text.split(' '))
-    return ' '.join(words)
+def latex(text, rules):
+    """A text as LaTeX reads it, by the report's rules; letters that its usual fonts lack are `?`. Long words may be broken."""
+    def letter(c):
+        return rules['letters'].get(c, c if any(first <= c <= last for first, last in rules['ranges']) else '?')
+
+    def broken(word):
+        pieces = (word[i:i + rules['unbroken']] for i in range(0, len(word), rules['unbroken']))
+        return '\\hspace{0pt}'.join(''.join(map(letter, piece)) for piece in pieces)
+    return ' '.join(map(broken, text.split(' ')))
 
 
 def figures_of_trackers(trackers):
@@ -197,13 +197,12 @@ def draw(report, folder):
     parts = [(section['kind'], figures_of(section)) for section in report['sections']]
     if report['trackers']:
         parts.append(('tracking', figures_of_trackers(report['trackers'])))
-    letters = report['latex']
     text, listed = '% All figures, each to be cut out, or all by \\input\n% \\usepackage{graphicx}\n\n', {}
     with plt.rc_context({'pdf.fonttype': 42, 'figure.dpi': 200, 'savefig.dpi': 200}):
         for kind, figures in parts:
             for name, drawing, caption in figures:
                 name = f'{kind}_{name}'
                 save(drawing, folder / 'figures', name)
-                text += ENVIRONMENT % ('' if drawing.width > WIDTH else '0.6', name, latex(caption, letters), name.replace('_', '-'))
+                text += ENVIRONMENT % ('' if drawing.width > WIDTH else '0.6', name, latex(caption, report['latex']), name.replace('_', '-'))
                 listed.setdefault(kind, []).append((name, caption))
     return text, listed

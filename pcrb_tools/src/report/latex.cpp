@@ -1,7 +1,9 @@
 #include "report/latex.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "pcrb_core/io/text.hpp"
@@ -60,15 +62,15 @@ const std::map<std::string, std::string> kAbsentLetters{
     {"Į", "I"}, {"į", "i"}, {"Ų", "U"},  {"ų", "u"},  {"ĸ", "k"}, {"Ŀ", "L"},
     {"ŀ", "l"}, {"ŉ", "n"}, {"Ŋ", "N"},  {"ŋ", "n"},  {"Ŧ", "T"}, {"ŧ", "t"}};
 
-constexpr unsigned kFirstLatin = 0xA0;
-constexpr unsigned kLastLatin = 0x17E;
+/// First and last letters of what LaTeX's usual fonts have: ASCII, and Latin from U+00A0 to U+017E.
+const std::array<std::pair<std::string, std::string>, 2> kKnownRanges{
+    {{" ", "~"}, {"\u00a0", "\u017e"}}};
 
+/// Letters of UTF-8 of one length are ordered as their bytes are.
 bool isKnownToLatex(const std::string& letter) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(letter[i]); };
-  if (letter.size() == 1) return byte(0) >= 0x20 && byte(0) < 0x7F;
-  if (letter.size() != 2) return false;
-  const unsigned code = (byte(0) & 0x1FU) << 6U | (byte(1) & 0x3FU);
-  return code >= kFirstLatin && code <= kLastLatin;
+  return std::any_of(kKnownRanges.begin(), kKnownRanges.end(), [&](const auto& range) {
+    return letter.size() == range.first.size() && letter >= range.first && letter <= range.second;
+  });
 }
 
 std::string latexLetter(const std::string& letter) {
@@ -193,10 +195,10 @@ std::string latexEscaped(const std::string& text, std::size_t unbroken) {
   return escaped;
 }
 
-Json latexLetters() {
+Json latexRules() {
   Json letters(kLetters);
   letters.update(Json(kAbsentLetters));
-  return letters;
+  return {{"letters", letters}, {"ranges", Json(kKnownRanges)}, {"unbroken", kUnbroken}};
 }
 
 std::string latexTable(const std::string& caption, const std::string& label,

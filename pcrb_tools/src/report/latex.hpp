@@ -13,8 +13,10 @@ constexpr std::size_t kLatexGap = 3;       ///< letters between two columns
 /// Text as LaTeX reads it, whatever letters it has. Words may go on in the next line after so many.
 std::string latexEscaped(const std::string& text, std::size_t unbroken = std::string::npos);
 
-/// What latexEscaped puts in the place of letters, for captions that are made elsewhere.
-Json latexLetters();
+/// The rules of latexEscaped, for captions that are made elsewhere: what stands in the place of
+/// which `letters`, the first and last letter of the `ranges` that are left as they are (others
+/// become `?`), and the number of letters after which a long word may be broken (`unbroken`).
+Json latexRules();
 
 /// A `table` with booktabs around rows that are there already.
 ///

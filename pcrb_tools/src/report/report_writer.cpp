@@ -143,7 +143,7 @@ ReportWriter::ReportWriter(const ReportOptions& options) : options_(options) {
   }
   json_["title"] = options.title;
   json_["version"] = PCRB_VERSION;
-  json_["latex"] = latexLetters();
+  json_["latex"] = latexRules();
   json_["sections"] = Json::array();
   markdown_ = "# " + options.title + "\n\n";
   latex_ = "% " + options.title +

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "pcrb_core/run/results_store.hpp"
+#include "report/latex.hpp"
 #include "support/report_fixture.hpp"
 
 namespace pcrb_tools {
@@ -55,6 +56,18 @@ TEST_F(ReportTest, PublishedFiguresStandOnlyBesideProblemsThatNoToolDrew) {
   EXPECT_NE(page.find("No published figures stand beside plain"), std::string::npos);
   EXPECT_NE(read(options_.output + "/report.md").find("other ones than the published ones"),
             std::string::npos);
+}
+
+TEST(ReportFigures, HaveTheirCaptionsByTheRulesOfTheTables) {
+  const Json rules = latexRules();
+  const std::string text = "a_long_word_of_café_中 \x7f Łódź ę ž\u017f 5° of 50 %  twice~";
+  const std::string folder = std::string(PCRB_TOOLS_FOLDER) + "/report";
+  const std::string program =
+      "import json, sys; sys.path.insert(0, sys.argv[1]); import figures; "
+      "print(figures.latex(sys.argv[3], json.loads(sys.argv[2])), end=\"\")";
+  EXPECT_EQ(outputOf(std::string(PCRB_PYTHON) + " -c '" + program + "' '" + folder + "' '" +
+                     rules.dump() + "' '" + text + "'"),
+            latexEscaped(text, rules.at("unbroken")));
 }
 
 TEST_F(ReportTest, ItsTablesAndFiguresCompileInLatex) {
