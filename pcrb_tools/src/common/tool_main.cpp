@@ -3,6 +3,7 @@
 #include <ros/init.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/process.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
 #include "pcrb_core/io/process_limits.hpp"
 #include "pcrb_core/io/text.hpp"
@@ -156,6 +158,8 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& bo
   }
   try {
     return body();
+  } catch (const Interrupted& error) {
+    return complain(tool, error, 128 + SIGINT);  // as a shell has it
   } catch (const std::exception& error) {
     return complain(tool, error, kFailure);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -48,6 +49,21 @@ TEST(ToolMain, HelpSucceedsAndGoesToStandardOutput) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_NE(outcome.out.find("Does something."), std::string::npos);
   EXPECT_NE(outcome.out.find("--number"), std::string::npos);
+}
+
+TEST(ToolMain, AnInterruptBecomesOneLineAndTheStatusThatAShellHasForIt) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Outcome outcome = run({}, [signal](int) -> int {
+      const Interruption interruption;
+      std::raise(signal);
+      Interruption::check();
+      return kSuccess;
+    });
+    EXPECT_EQ(outcome.status, 128 + SIGINT);
+    EXPECT_EQ(outcome.err,
+              "some_tool: interrupted; what is complete is kept and the next run goes on from "
+              "there\n");
+  }
 }
 
 TEST(ToolMain, ErrorOfTheCoreBecomesOneLineAndStatusOne) {
