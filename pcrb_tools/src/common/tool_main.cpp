@@ -1,5 +1,6 @@
 #include "common/tool_main.hpp"
 
+#include <malloc.h>
 #include <ros/init.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -25,6 +27,14 @@ namespace {
 
 std::string toolName(int argc, char** argv) {
   return argc > 0 ? std::filesystem::path(argv[0]).filename().string() : std::string("pcrb_tool");
+}
+
+/// Has the next cloud take the memory of the last one. Where page faults are dear, to give pages
+/// back and get them again, cleared, was up to half of a converter's time (docs/benchmarks.md).
+void keepFreedMemory() {
+  constexpr int kMost = 1 << 25;  // bytes; larger blocks are never kept
+  mallopt(M_MMAP_THRESHOLD, kMost);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
 /// CLI11 wants the arguments without the program's name, last one first.
@@ -145,6 +155,7 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& bo
   const std::string tool = toolName(argc, argv);
   app.name(tool);
   pcrb::turnLimitsIntoErrors(tool);
+  keepFreedMemory();
   addMemoryOption(app);
   if (argc == 2 && std::string_view(argv[1]) == "--describe") return describeOptions(app);
   try {
