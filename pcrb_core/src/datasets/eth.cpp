@@ -153,9 +153,9 @@ SensorScan parseEthScan(std::string_view text, const std::string& name) {
   if (!reader.nextRow(line)) throw InvalidFile(name, 0, "no line", "a header and points");
   const Columns columns = parseHeader(reader, line);
   SensorScan scan;
-  while (reader.next(line)) {
+  while (reader.nextRow(line)) {
     if (scan.points.empty()) scan.points.reserve(reader.rest().size() / (line.size() + 1) + 1);
-    if (!trimmed(line).empty()) scan.add(parseRow(reader, line, columns), OriginPoints::kKeep);
+    scan.add(parseRow(reader, line, columns), OriginPoints::kKeep);
   }
   if (scan.counts.read == 0) throw InvalidFile(name, 0, "a header only", "points");
   return scan;

@@ -83,10 +83,12 @@ class alignas(kCacheLine) AsciiReader {
     std::vector<std::future<Part>> others;
     const std::vector<std::string_view> chunks = split(text, static_cast<std::size_t>(threads));
     for (std::size_t i = 1; i < chunks.size(); ++i) {
-      others.push_back(std::async(std::launch::async, [&, i] { return readRows(chunks[i]); }));
+      others.push_back(std::async(
+          std::launch::async, [&, i] { return readRows(chunks[i], mostRows(chunks[i].size())); }));
     }
     std::vector<Part> parts;
-    parts.push_back(readRows(chunks[0]));
+    // The others' rows are put behind these: there is room for them, and nothing moves.
+    parts.push_back(readRows(chunks[0], mostRows(text.size())));
     for (auto& other : others) parts.push_back(other.get());
     check(parts, text);
     join(parts, cloud);
@@ -112,9 +114,9 @@ class alignas(kCacheLine) AsciiReader {
     return chunks;
   }
 
-  Part readRows(std::string_view text) const {
+  /// @param most_rows  to have room for.
+  Part readRows(std::string_view text, std::size_t most_rows) const {
     Part part;
-    const std::size_t most_rows = mostRows(text.size());
     part.points.reserve(most_rows);
     if (has_intensity_) part.intensity.reserve(most_rows);
     const char* const end = text.data() + text.size();
