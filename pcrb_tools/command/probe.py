@@ -86,10 +86,11 @@ def launch_words(values):
 
 
 def start_master(stack):
-    """A roscore on a free port, as environment."""
+    """A roscore on a free port, as environment. It is a roslaunch, which guard_launch gives more time than a roscore has."""
     port = free_port()
+    which('roslaunch')
     environment = {'ROS_MASTER_URI': f'http://127.0.0.1:{port}', 'ROS_IP': '127.0.0.1'}
-    start(stack, [which('roscore'), '-p', str(port)], subprocess.DEVNULL, environment)
+    start(stack, ['roslaunch', '--core', '-p', str(port)], subprocess.DEVNULL, environment)
     return environment
 
 

@@ -1,5 +1,6 @@
 """The robot of pcrb probe: a room, its map, ten scans; it notes all that a localization node says to them."""
 import dataclasses
+import sys
 import threading
 import time
 
@@ -16,6 +17,9 @@ CLOUD, INITIAL_POSE = 'sensor_msgs/PointCloud2', 'geometry_msgs/PoseWithCovarian
 POSES = {'geometry_msgs/PoseStamped': PoseStamped, INITIAL_POSE: PoseWithCovarianceStamped, 'nav_msgs/Odometry': Odometry,
          'geometry_msgs/TransformStamped': TransformStamped}
 SCANS, PERIOD, ANSWER_LIMIT = 10, 0.1, 3.0  # s
+PATIENCE = 10.0  # s, in place of ANSWER_LIMIT for a node that has answered a scan, and may have to wait for a processor
+MASTER_LIMIT = 120.0  # s
+CONNECT_LIMIT = 20.0  # s
 SENSOR = 'sensor'
 OWN = '/pcrb_probe'
 OFFSET = (0.3, -0.2, 0.05, 0.08)  # x y z in m and yaw in rad: of the initial pose from the truth
@@ -119,7 +123,8 @@ class Robot:
 
     def probe(self, is_running):
         """All that was seen; None if the launch file ended or no node takes clouds."""
-        wait_for(self.master.is_online, 30)
+        if not wait_for(self.master.is_online, MASTER_LIMIT):
+            sys.exit(f'pcrb probe: its ROS master did not answer within {MASTER_LIMIT:g} s')  # rospy would wait for ever
         rospy.init_node(OWN[1:], anonymous=False, disable_signals=True)
         for topic in '/tf', '/tf_static':
             rospy.Subscriber(topic, tf2_msgs.msg.TFMessage, self.take_tf, topic == '/tf_static', queue_size=100)
@@ -153,10 +158,10 @@ class Robot:
         return CLOUD in self.seen.subscriptions.values()
 
     def settle_down(self):
-        """Until nothing new has come for a second: subscriptions of a new node come one by one."""
+        """Until nothing new has come for two seconds: subscriptions of a new node come one by one."""
         before, seen = None, (dict(self.seen.subscriptions), dict(self.seen.publications))
         while before != seen:
-            time.sleep(1.0)
+            time.sleep(2.0)
             self.look()
             before, seen = seen, (dict(self.seen.subscriptions), dict(self.seen.publications))
 
@@ -197,7 +202,7 @@ class Robot:
             self.send(topic, cloud_message(room(), self.seen.map_frame, now), latch=True)
         time.sleep(2.0)
         self.send_initial_pose()
-        time.sleep(0.5)
+        time.sleep(1.0)
         points = room()
         near = points[np.linalg.norm(points - TRUTH[:3, 3], axis=1) < 9.0][::2]
         scan = (near - TRUTH[:3, 3]) @ TRUTH[:3, :3]
@@ -216,7 +221,7 @@ class Robot:
             before = self.count()
         for topic in self.seen.scan_topics:
             self.send(topic, cloud_message(scan, SENSOR, stamp))
-        wait_for(lambda: self.count() > before, ANSWER_LIMIT, 0.01)
+        wait_for(lambda: self.count() > before, PATIENCE if before else ANSWER_LIMIT, 0.01)
         time.sleep(PERIOD)
 
     def count(self):
@@ -225,7 +230,7 @@ class Robot:
     def send(self, topic, message, latch=False):
         if topic not in self.publishers:
             self.publishers[topic] = rospy.Publisher(topic, type(message), queue_size=10, latch=latch, tcp_nodelay=True)
-            wait_for(lambda: self.publishers[topic].get_num_connections() > 0, 5.0)
+            wait_for(lambda: self.publishers[topic].get_num_connections() > 0, CONNECT_LIMIT)
         self.publishers[topic].publish(message)
 
     def send_links(self, stamp):
@@ -291,9 +296,9 @@ class Robot:
                 is_echo=bool(np.linalg.norm(numbers[:3] - GUESS[:3, 3]) < 1e-4), is_valid=is_valid))
 
     def scan_of(self, stamp):
-        """The scan that a stamp is of, else the newest one."""
-        nearest = int(np.argmin(np.abs(np.array(self.stamps) - stamp)))
-        return nearest if abs(self.stamps[nearest] - stamp) < probe_recipe.EXACT else len(self.stamps) - 1
+        """The scan that a stamp is of, else the newest one that is not after it, else the newest one."""
+        before = [scan for scan, sent in enumerate(self.stamps) if sent < stamp + probe_recipe.EXACT]
+        return before[-1] if before else len(self.stamps) - 1
 
 
 def write_pcd(path, points):
