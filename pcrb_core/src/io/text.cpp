@@ -290,4 +290,10 @@ std::string printableText(std::string_view text) {
   return result;
 }
 
+void requireUtf8(std::string_view text, const std::string& reason) {
+  const std::string printable = printableText(text);
+  if (printable == text) return;
+  throw InvalidParameter("found `" + printable + "`, expected UTF-8: " + reason);
+}
+
 }  // namespace pcrb

@@ -147,5 +147,12 @@ TEST(PrintableText, ReplacesWhatXmlCannotHold) {
   EXPECT_EQ(printableText("\xef\xbf\xbe\xef\xbf\xbf"), kReplaced + kReplaced);
 }
 
+TEST(RequireUtf8, RefusesWhatPrintableTextWouldChangeAndSaysWhy) {
+  requireUtf8("/caf\xc3\xa9", "so it is");
+  pcrb_test::expectError<InvalidParameter>(
+      [] { requireUtf8("/caf\xe9\x1b", "so it is"); },
+      "found `/caf" + kReplaced + kReplaced + "`, expected UTF-8: so it is");
+}
+
 }  // namespace
 }  // namespace pcrb

@@ -106,17 +106,6 @@ void connect() {
   }
 }
 
-/// What a command line sets goes to the ROS master, as XML.
-void requireUtf8(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string text = printableText(argv[i]);
-    if (text != argv[i]) {
-      throw CLI::ValidationError("found `" + text +
-                                 "`, expected UTF-8: a ROS master takes no other bytes");
-    }
-  }
-}
-
 std::string footerOf(const NodeHelp& help) {
   if (help.parameters.empty()) return help.details;
   return "Private parameters (default):\n" + formatParameters(help.parameters) + "\n" +
@@ -134,12 +123,16 @@ int runNode(int argc, char** argv, const NodeHelp& help,
   CLI::App app(help.description, help.name);
   app.footer(footerOf(help));
   try {
-    requireUtf8(argc, argv);
+    // What a command line sets goes to the ROS master, as XML.
+    for (int i = 1; i < argc; ++i) requireUtf8(argv[i], "a ROS master takes no other bytes");
     arguments.erase(arguments.begin());
     std::reverse(arguments.begin(), arguments.end());
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  } catch (const InvalidParameter& error) {
+    std::cerr << help.name << ": " << error.what() << std::endl;
+    return 2;
   }
   const sigset_t signals = ShutdownWatcher::signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);

@@ -64,14 +64,6 @@ std::string launchFile(const BatchOptions& options) {
   return ros::package::getPath("pcrb_launch") + "/" + options.launch;
 }
 
-/// What roslaunch is given goes to the ROS master, as XML.
-void requireUtf8(const std::string& word) {
-  const std::string text = pcrb::printableText(word);
-  if (text == word) return;
-  throw pcrb::InvalidParameter("found `" + text +
-                               "`, expected UTF-8: roslaunch takes no other bytes in a path");
-}
-
 std::string nameOf(const std::string& argument) { return argument.substr(0, argument.find(":=")); }
 
 /// Nodes have another working directory. A library that is not there is looked for by the system.
@@ -149,8 +141,9 @@ std::vector<std::string> launchCommand(const BatchOptions& options) {
     }
     command.push_back(withAbsolutePath(argument));
   }
-  std::for_each(command.begin(), command.end(), requireUtf8);
-  requireUtf8(options.run);
+  const char* const reason = "roslaunch takes no other bytes in a path";  // it writes them as XML
+  for (const std::string& word : command) pcrb::requireUtf8(word, reason);
+  pcrb::requireUtf8(options.run, reason);
   return command;
 }
 

@@ -104,4 +104,8 @@ std::string alignColumns(const std::vector<TableRow>& rows, std::size_t text_col
 /// control character but tab, line feed and carriage return, and U+FFFE and U+FFFF become U+FFFD.
 std::string printableText(std::string_view text);
 
+/// @param reason  why nothing else will do: it ends the message.
+/// @throws InvalidParameter  if printableText() would change the text.
+void requireUtf8(std::string_view text, const std::string& reason);
+
 }  // namespace pcrb
