@@ -35,6 +35,7 @@ Interruption::Interruption() {
 Interruption::~Interruption() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  interrupted = 0;
 }
 
 void Interruption::check() {

@@ -22,7 +22,7 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// @throws Interrupted  once a signal has come.
+  /// @throws Interrupted  once a signal has come to the Interruption that there is.
   static void check();
 };
 
