@@ -108,8 +108,9 @@ class LiveConversionTest(TestCase):
     def play_all(self, converter, bag, node, topics, start=0.0):
         """Plays a bag until the node has received every message from `start` s on."""
         with rosbag.Bag(bag) as played:
-            first = genpy.Time.from_sec(played.get_start_time() + start)
-            expected = collections.Counter(topic for topic, _, _ in played.read_messages(topics, first, raw=True))
+            messages = [(topic, stamp) for topic, _, stamp in played.read_messages(raw=True)]
+        first = messages[0][1] + genpy.Duration.from_sec(start)  # in ns: a double may be later than the first message
+        expected = collections.Counter(topic for topic, stamp in messages if topic in topics and stamp >= first)
         player = self.play(bag, node, topics, f'--start={start:g}')
 
         def received():
