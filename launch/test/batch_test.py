@@ -13,6 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import (TIME_COLUMNS, Child, Launch, TestCase, executable, gated_client, open_gate, row_key, rows, run_info,
                           wait_until)
+from pcrb_testing_processes import processes_that_name
 
 # target_changed depends on the secret order; the others on the moment.
 OF_ONE_RUN = {'target_changed', *TIME_COLUMNS}
@@ -22,19 +23,6 @@ ISOLATED = ['unshare', '--net', '--map-root-user', 'sh', '-c', 'ip link set lo u
 
 def without(names, dictionary):
     return {name: value for name, value in dictionary.items() if name not in names}
-
-
-def processes_that_name(text):
-    """Ids of the processes with a text in their command line, this one's excepted."""
-    found = []
-    for pid in filter(str.isdigit, os.listdir('/proc')):
-        try:
-            with open(f'/proc/{pid}/cmdline', 'rb') as file:
-                if text.encode() in file.read() and int(pid) != os.getpid():
-                    found.append(int(pid))
-        except OSError:
-            pass  # it has ended
-    return found
 
 
 class BatchTest(TestCase):
@@ -51,10 +39,6 @@ class BatchTest(TestCase):
 
     def shard(self, number):
         return os.path.join(self.run, 'shards', str(number))
-
-    def write(self, name, text):
-        with open(self.path(name), 'w', encoding='utf-8') as file:
-            file.write(text)
 
     def log_of_shard(self, number):
         path = os.path.join(self.shard(number), 'roslaunch.log')

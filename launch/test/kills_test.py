@@ -25,6 +25,7 @@ import pcrb_testing_data as maths
 from pcrb_testing import Child, executable, rows, wait_until
 from pcrb_testing_bridge import BridgeTestCase, make_answer
 from pcrb_testing_ports import free_ports
+from pcrb_testing_processes import command_lines
 from survival_test import without_times
 
 LONG = os.environ.get('PCRB_LONG_TESTS') == '1'
@@ -182,16 +183,7 @@ class KillsTest(BridgeTestCase):
 
     def left_of(self, run):
         """Processes of a run, its master and rosout among them: their logs are in its folder."""
-        return [line for line in self.command_lines() if run in line]
-
-    @staticmethod
-    def command_lines():
-        for pid in filter(str.isdigit, os.listdir('/proc')):
-            try:
-                with open(f'/proc/{pid}/cmdline', 'rb') as file:
-                    yield os.fsdecode(file.read())
-            except (FileNotFoundError, ProcessLookupError):
-                pass
+        return [line for line in command_lines().values() if run in line]
 
     def test_bridge(self):
         server = self.localization(sequences='all', time_limit=20.0)

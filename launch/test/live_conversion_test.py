@@ -59,11 +59,6 @@ class LiveConversionTest(TestCase):
     def sample_log(self, sequence):
         return os.path.join(self.logs, 'tum', f'rgbd_dataset_{sequence}')
 
-    def write(self, name, text):
-        with open(self.path(name), 'w') as file:
-            file.write(text)
-        return self.path(name)
-
     def tum_poses(self):
         rows = (f'{SECOND}.{10 * i:03d} {i} 2 3 0 0 0.6 0.8\n' for i in range(90))
         return self.write('log-groundtruth.txt', '# timestamp tx ty tz qx qy qz qw\n' + ''.join(rows))

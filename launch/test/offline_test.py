@@ -51,11 +51,6 @@ class OfflineTest(TestCase):
         self.assertGreater(done.returncode, 0)
         self.assertRegex(done.stdout, pattern)
 
-    def write(self, name, text):
-        with open(self.path(name), 'w') as file:
-            file.write(text)
-        return self.path(name)
-
     def read(self, name):
         with open(self.path(name)) as file:
             return file.read()

@@ -15,7 +15,8 @@ import rostest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import Child, TestCase, executable, front_door, row_key, rows, run_info
-from pcrb_testing_terminal import CTRL_C, Terminal, command_lines
+from pcrb_testing_processes import marked_processes
+from pcrb_testing_terminal import CTRL_C, Terminal
 
 COMMANDS = ('prepare fetch convert overlap sample map import-protocol check run localize probe paper score report compare merge ground-truth replay bag demo '
             'doctor recipes completion options').split() + [f'convert {name}' for name in ('eth', 'planetary', 'tum', 'kaist')]
@@ -144,7 +145,7 @@ class PcrbCommandTest(TestCase):
         self.assertEqual(terminal.wait(), 130, terminal.text)
         said = [line for line in re.split(r'[\r\n]+|\^C', terminal.text) if line and 'problems' not in line]
         self.assertEqual(said, ['pcrb run: interrupted; what is complete is kept and the next run goes on from there'])
-        self.assertEqual(command_lines(mark), {})
+        self.assertEqual(marked_processes(mark), {})
         kept = {row_key(row): row for row in rows(os.path.join(run, 'shards', '0'))}
         self.assertGreater(len(kept), 0)
         child = self.start(Child(command))

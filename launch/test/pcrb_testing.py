@@ -175,6 +175,14 @@ class TestCase(unittest.TestCase):
     def path(self, *parts):
         return os.path.join(self.folder, *parts)
 
+    def write(self, name, text):
+        """A file of the test's folder, as its path."""
+        path = self.path(name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+        return path
+
     def start(self, child):
         self.addCleanup(child.kill)
         return child

@@ -1,4 +1,4 @@
-"""A user's terminal: programs that have one, keys that are pressed on it, and the processes that are left."""
+"""A user's terminal: programs that have one, and keys that are pressed on it."""
 import contextlib
 import os
 import pty
@@ -50,14 +50,3 @@ class Terminal:
             data = os.read(self._descriptor, 65536)
         self.text += data.decode(errors='replace')
         return bool(data)
-
-
-def command_lines(mark):
-    """Of all processes that have PCRB_MARK=mark in their environment, by their ids."""
-    found = {}
-    for pid in filter(str.isdigit, os.listdir('/proc')):
-        with contextlib.suppress(OSError):  # it has ended, or is another user's
-            with open(f'/proc/{pid}/environ', 'rb') as environment, open(f'/proc/{pid}/cmdline', 'rb') as line:
-                if f'PCRB_MARK={mark}\0'.encode() in environment.read():
-                    found[int(pid)] = line.read().decode(errors='replace')
-    return found

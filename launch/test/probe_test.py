@@ -10,7 +10,8 @@ import yaml
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from pcrb_testing import Child, TestCase, front_door, wait_until
-from pcrb_testing_terminal import CTRL_C, Terminal, command_lines
+from pcrb_testing_processes import marked_processes
+from pcrb_testing_terminal import CTRL_C, Terminal
 
 SILENT = [front_door(), 'probe', '--node', 'localization_standins ill_mannered_localizer.launch', '--node-args', 'manner=silent']
 
@@ -18,7 +19,7 @@ SILENT = [front_door(), 'probe', '--node', 'localization_standins ill_mannered_l
 def wait_for_node(mark):
     """And for the master that it was started with."""
     for name in 'rosmaster', '__name:=ill_mannered_localizer':
-        wait_until(lambda n=name: any(n in line for line in command_lines(mark).values()), f'{name} is there')
+        wait_until(lambda n=name: any(n in line for line in marked_processes(mark).values()), f'{name} is there')
 
 
 class ProbeTest(TestCase):
@@ -75,7 +76,7 @@ class ProbeTest(TestCase):
         probe = self.start(Child(SILENT, PCRB_MARK=mark))
         wait_for_node(mark)
         os.kill(probe.process.pid, signal.SIGKILL)
-        wait_until(lambda: not command_lines(mark), 'nothing is left')
+        wait_until(lambda: not marked_processes(mark), 'nothing is left')
 
     def test_ctrl_c_ends_a_probe_with_one_line_and_leaves_no_process(self):
         mark = self.path('of this probe')
@@ -84,7 +85,7 @@ class ProbeTest(TestCase):
         terminal.press(CTRL_C)
         self.assertEqual(terminal.wait(), 130, terminal.text)
         self.assertEqual(terminal.text.split(), ['^C', 'pcrb:', 'interrupted'])
-        self.assertEqual(command_lines(mark), {})
+        self.assertEqual(marked_processes(mark), {})
 
     def test_a_launch_file_that_fails_is_an_error_with_what_it_printed(self):
         status, _, text = self.probe('no_such')

@@ -13,6 +13,7 @@ import rostest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import Child, TestCase, gated_client, open_gate, rows, run_info, sessions, wait_until
+from pcrb_testing_processes import command_lines
 from pcrb_testing_slurm import Cluster, missing_programs
 from pcrb_testing_wait import LIMIT
 
@@ -53,15 +54,11 @@ class SlurmTest(TestCase):
 
     def batch_process(self, number):
         """Id of the evaluate_batch of a shard."""
-        for pid in filter(str.isdigit, os.listdir('/proc')):
-            try:
-                with open(f'/proc/{pid}/cmdline', 'rb') as file:
-                    words = os.fsdecode(file.read()).split('\0')
-            except OSError:
-                continue
+        for pid, line in command_lines().items():
+            words = line.split('\0')
             is_batch = words[0].endswith('/evaluate_batch') and self.run in words
             if is_batch and words[words.index('--only') + 1] == str(number):
-                return int(pid)
+                return pid
         return None
 
     def test_preempted_and_killed_tasks_go_on_and_the_last_job_merges_and_reports(self):

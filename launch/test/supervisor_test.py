@@ -47,7 +47,7 @@ class SupervisorTest(BridgeTestCase):
 
     def disturbed(self, number):
         """A run whose node gets a signal after its first result, when others are due; ended well, with at most two problems lost."""
-        launch = self.launch(settle='nth', bridge_parameters=self.written('slow.yaml', 'settle_count: 20\n'), time_limit=10.0)
+        launch = self.launch(settle='nth', bridge_parameters=self.write('slow.yaml', 'settle_count: 20\n'), time_limit=10.0)
         self.rows_at_least(1)
         os.kill(wait_until(node_process, 'the node is there'), number)
         self.assert_finished(launch, len(self.data.of('local', 'hall')) - 2)
@@ -58,11 +58,6 @@ class SupervisorTest(BridgeTestCase):
 
     def test_a_node_that_hangs_is_started_anew(self):
         self.assertIn('the node under test hangs', self.disturbed(signal.SIGSTOP).output())
-
-    def written(self, name, text):
-        with open(self.path(name), 'w', encoding='utf-8') as file:
-            file.write(text)
-        return self.path(name)
 
     def processes(self, launch):
         """The processes that the node under test was, as roslaunch says, when the run has ended."""
@@ -75,7 +70,7 @@ class SupervisorTest(BridgeTestCase):
         self.assert_finished(launch, len(self.data.of('local', 'hall')))
 
     def test_a_node_may_be_started_anew_for_each_problem_and_is_not_started_before(self):
-        file = self.written('restart.yaml', 'restart: problem\n')
+        file = self.write('restart.yaml', 'restart: problem\n')
         for name, how in ('argument', {'restart': 'problem'}), ('file', {'bridge_parameters': file}):
             launch = self.launch(run=self.path(name), subset=3, **how)
             self.assertEqual(len(self.processes(launch)), 3, name)
@@ -120,7 +115,7 @@ class SupervisorTest(BridgeTestCase):
         file = self.path('mine.launch')
 
         def launch(steps):
-            self.written('mine.launch', f"""<launch>
+            self.write('mine.launch', f"""<launch>
   <arg name="map_topic"/> <arg name="scan_topic"/>
   <include file="$(find localization_standins)/launch/ndt_localizer.launch" pass_all_args="true"/>
   <param name="/ndt_localizer/steps" value="{steps}"/>
@@ -140,11 +135,6 @@ class SupervisorTest(BridgeTestCase):
         self.assertRegex(launch(steps=30), r'client_parameters: the run has `node file mine\.launch: [0-9a-f]{16}, node '
                          r'/ndt_localizer/steps: 20`, asked for `node file mine\.launch: [0-9a-f]{16}, node /ndt_localizer/steps: 30`')
         self.assertNotIn('client_parameters: ', launch(steps=20))
-
-    def write(self, name, text):
-        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
-        with open(self.path(name), 'w', encoding='utf-8') as out:
-            out.write(text)
 
     def test_a_nodelets_library_is_noted_from_a_file_of_plugins_with_one_library_after_the_other(self):
         for package, export in (('nodelet', ''), ('nodelets', '<export><nodelet plugin="${prefix}/plugins.xml"/></export>')):

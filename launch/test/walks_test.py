@@ -10,7 +10,6 @@ import signal
 import sys
 
 import numpy as np
-import roslib.packages
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -83,10 +82,6 @@ class WalksTest(TestCase):
         child = self.shell(script, **variables)
         self.assertEqual(child.wait(1200), 0, child.output())
         return child.output()
-
-    def write(self, name, text):
-        with open(self.path(name), 'w', encoding='utf-8') as file:
-            file.write(text)
 
     def errors(self, *run):
         return {row['problem_id']: row['error'] for row in rows(self.path(*run))}
