@@ -122,28 +122,20 @@ std::optional<Transform> readViewpoint(const std::string& path) {
 }
 
 void writePcd(const std::string& path, const DatasetCloud& cloud) {
-  constexpr std::size_t kLongestRow = 3 * (kLongestNumber + 1);
   AtomicFile file(path);
   file.write(formatHeader(cloud));
-  std::array<char, 256 * kLongestRow> rows;
-  std::size_t used = 0;
-  const auto handOver = [&] {
-    file.write({rows.data(), used});
-    used = 0;
-  };
+  std::array<char, 3 * (kLongestNumber + 1)> row;
   for (const Eigen::Vector3d& point : cloud.points) {
     if (!point.allFinite()) {
       throw InvalidFile(path, "cannot write a point that is not finite");
     }
-    if (rows.size() - used < kLongestRow) handOver();
-    char* end = rows.data() + used;
+    char* end = row.data();
     for (int axis = 0; axis < 3; ++axis) {
       end = writeShortest(end, point[axis]);
       *end++ = axis < 2 ? ' ' : '\n';
     }
-    used = static_cast<std::size_t>(end - rows.data());
+    file.write({row.data(), static_cast<std::size_t>(end - row.data())});
   }
-  handOver();
   file.commit();
 }
 
