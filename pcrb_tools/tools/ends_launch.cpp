@@ -3,7 +3,6 @@
 // it refuses what roslaunch takes without a word: arguments that the launch file does not have.
 
 #include <ros/package.h>
-#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -79,17 +78,17 @@ std::filesystem::path logFolder(char** command) {
   return {};
 }
 
-/// Says why the launch ends, unless another of its nodes has said so: a file beside their logs
-/// keeps it.
+/// Says why the launch ends, unless another of its nodes has: one of them makes a file beside their
+/// logs.
 void say(const std::string& text, pid_t roslaunch, char** command) {
   const auto folder = logFolder(command);
   const auto path = folder / ("refused_launch-" + std::to_string(roslaunch) + ".log");
-  std::FILE* const log = folder.empty() ? nullptr : std::fopen(path.c_str(), "a+");
-  const bool is_open = log != nullptr && flock(fileno(log), LOCK_EX) == 0;
-  const bool is_said = is_open && std::fseek(log, 0, SEEK_END) == 0 && std::ftell(log) > 0;
-  if (!is_said) std::fprintf(stderr, "%s\n", text.c_str());
-  if (!is_said && is_open) std::fprintf(log, "%s\n", text.c_str());
-  if (log != nullptr) std::fclose(log);
+  std::FILE* const log = folder.empty() ? nullptr : std::fopen(path.c_str(), "wx");
+  if (log == nullptr && !folder.empty() && errno == EEXIST) return;
+  std::fprintf(stderr, "%s\n", text.c_str());
+  if (log == nullptr) return;
+  std::fprintf(log, "%s\n", text.c_str());
+  std::fclose(log);
 }
 
 }  // namespace
