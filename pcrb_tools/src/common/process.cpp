@@ -27,7 +27,6 @@ void onSignal(int signal) {
 }  // namespace
 
 Interruption::Interruption() {
-  interrupted = 0;
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
 }
