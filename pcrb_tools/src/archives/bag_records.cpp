@@ -1,8 +1,12 @@
 #include "archives/bag_records.hpp"
 
+#include <rosbag/exceptions.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
+#include "archives/bag_chunk.hpp"
 #include "pcrb_core/error.hpp"
 
 namespace pcrb_tools {
@@ -19,29 +23,46 @@ BagRecordKind BagRecord::kind() const {
 }
 
 std::string_view BagRecord::field(std::string_view name) const {
-  std::string_view rest = header;
-  while (!rest.empty()) {
+  std::string_view value;
+  for (std::string_view rest = header; !rest.empty();) {
     const std::string_view entry = rest.substr(4, littleEndian<std::uint32_t>(rest));
     if (entry.substr(0, name.size()) == name && entry.substr(name.size(), 1) == "=") {
-      return entry.substr(name.size() + 1);
+      value = entry.substr(name.size() + 1);
     }
     rest.remove_prefix(4 + entry.size());
   }
-  return {};
+  return value;
 }
 
 BagRecords::BagRecords(const std::string& path)
     : path_(path), file_(path, std::ios::binary), size_(std::filesystem::file_size(path)) {}
 
+BagRecords::BagRecords(const std::string& path, const BagRecord& chunk, std::string bytes)
+    : path_(path),
+      what_("the chunk at byte " + std::to_string(chunk.position)),
+      size_(bytes.size()),
+      block_(std::move(bytes)) {}
+
+BagRecords BagRecords::unpack(const BagRecord& chunk) {
+  try {
+    const auto size = numberOf<std::uint32_t>(chunk, "size");
+    return {path_, chunk,
+            unpackChunk(chunk.field("compression"), bytes(chunk.data, chunk.size), size)};
+  } catch (const rosbag::BagException& error) {
+    refuse(chunk.position, "a chunk that cannot be unpacked (" + std::string(error.what()) + ")",
+           "what rosbag packs");
+  }
+}
+
 void BagRecords::refuse(std::uint64_t position, const std::string& found,
                         const std::string& expected) const {
-  throw pcrb::InvalidFile(path_, 0, found + " at byte " + std::to_string(position) + " of a bag",
+  throw pcrb::InvalidFile(path_, 0, found + " at byte " + std::to_string(position) + " of " + what_,
                           expected);
 }
 
 void BagRecords::refuseCut(const std::string& why) const {
   throw pcrb::InvalidFile(path_, 0,
-                          std::to_string(size_) + " bytes of a bag that is cut or damaged",
+                          std::to_string(size_) + " bytes of " + what_ + " that is cut or damaged",
                           "all of it" + why);
 }
 

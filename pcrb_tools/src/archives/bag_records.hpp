@@ -28,7 +28,7 @@ struct BagRecord {
 
   std::uint64_t end() const { return data + size; }
   BagRecordKind kind() const;
-  /// A field of the header; empty if there is none.
+  /// A field of the header, the last of several as for rosbag; empty if there is none.
   std::string_view field(std::string_view name) const;
 };
 
@@ -46,6 +46,10 @@ Number littleEndian(std::string_view bytes) {
 class BagRecords {
  public:
   explicit BagRecords(const std::string& path);
+
+  /// Those of a packed chunk; what they claim is checked against what it holds.
+  /// @throws InvalidFile  if it cannot be unpacked.
+  BagRecords unpack(const BagRecord& chunk);
 
   std::uint64_t size() const { return size_; }
 
@@ -74,7 +78,10 @@ class BagRecords {
   [[noreturn]] void refuseCut(const std::string& why = "") const;
 
  private:
+  BagRecords(const std::string& path, const BagRecord& chunk, std::string bytes);
+
   std::string path_;
+  std::string what_ = "a bag";
   std::ifstream file_;
   std::uint64_t size_;
   std::string block_;

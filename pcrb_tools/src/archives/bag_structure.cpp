@@ -5,12 +5,19 @@
 #include <vector>
 
 #include "archives/bag_records.hpp"
+#include "common/process.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
 
 namespace pcrb_tools {
 namespace {
+
+constexpr std::uint64_t kMegabyte = 1000000;
+
+std::string inMegabytes(std::uint64_t bytes) {
+  return std::to_string(bytes / kMegabyte) + " MB of memory";
+}
 
 /// Where the index begins.
 /// @throws InvalidFile  if there is none, or the bag is encrypted.
@@ -29,6 +36,13 @@ std::uint64_t indexPosition(const std::string& path, BagRecords& records) {
   records.refuseCut(": its index begins at " + std::to_string(index));
 }
 
+/// Where a chunk's messages lie: in the file, or in what was unpacked.
+struct Messages {
+  BagRecords& records;
+  std::uint64_t begin;
+  std::uint64_t end;
+};
+
 /// Looks at all that rosbag will believe.
 class BagCheck {
  public:
@@ -42,12 +56,15 @@ class BagCheck {
 
   void checkConnection(const BagRecord& connection);
   void checkChunk(const BagRecord& info);
-  void checkSize(const BagRecord& chunk) const;
-  void checkIndex(const BagRecord& index, const BagRecord& chunk);
-  void checkMessage(std::uint64_t place, const BagRecord& chunk);
+  std::uint64_t memoryFor(const BagRecord& chunk) const;
+  void countMessages(std::uint32_t messages, const BagRecord& index);
+  void checkIndexes(const BagRecord& chunk, std::uint32_t indexes, Messages messages);
+  void checkIndex(const BagRecord& index, Messages messages);
+  void checkMessage(std::uint64_t place, std::uint32_t connection, Messages messages);
 
   BagRecords records_;
   std::uint64_t index_;
+  std::uint64_t messages_ = 0;
   std::set<std::uint32_t> connections_;
   std::set<std::uint64_t> chunks_;  ///< positions
 };
@@ -91,18 +108,28 @@ void BagCheck::checkChunk(const BagRecord& info) {
     records_.refuse(info.position, "a chunk for the second time", "every chunk once");
   }
   const BagRecord chunk = records_.at(position, BagRecordKind::kChunk);
-  checkSize(chunk);
+  const std::uint64_t needed = memoryFor(chunk);
+  if (chunk.field("compression") == "none") {
+    checkIndexes(chunk, indexes, {records_, chunk.data, chunk.end()});
+  } else if (indexes > 0) {
+    const auto share = pcrb::MemoryBudget::ofProcess().take(needed);
+    BagRecords unpacked = records_.unpack(chunk);
+    checkIndexes(chunk, indexes, {unpacked, 0, unpacked.size()});
+  }
+}
+
+void BagCheck::checkIndexes(const BagRecord& chunk, std::uint32_t indexes, Messages messages) {
   std::uint64_t next = chunk.end();
   for (std::uint32_t i = 0; i < indexes; ++i) {
+    Interruption::check();
     const BagRecord index = records_.at(next, BagRecordKind::kIndex);
-    checkIndex(index, chunk);
+    checkIndex(index, messages);
     next = index.end();
   }
 }
 
 /// rosbag holds a chunk as it is in the file and unpacked, and then one of its messages.
-void BagCheck::checkSize(const BagRecord& chunk) const {
-  constexpr std::uint64_t kMegabyte = 1000000;
+std::uint64_t BagCheck::memoryFor(const BagRecord& chunk) const {
   const std::uint64_t unpacked = records_.numberOf<std::uint32_t>(chunk, "size");
   if (chunk.field("compression") == "none" && unpacked != chunk.size) {
     records_.refuse(chunk.position, "a chunk of " + std::to_string(chunk.size) + " bytes",
@@ -110,41 +137,54 @@ void BagCheck::checkSize(const BagRecord& chunk) const {
   }
   const std::uint64_t needed = chunk.size + 2 * unpacked;
   const std::uint64_t limit = pcrb::MemoryBudget::ofProcess().limit();
-  if (needed <= limit && std::max<std::uint64_t>(chunk.size, unpacked) < kLargestChunk) return;
-  records_.refuse(chunk.position,
-                  "a chunk that takes " + std::to_string(needed / kMegabyte + 1) + " MB of memory",
-                  "at most " + std::to_string(std::min(limit, 2 * kLargestChunk) / kMegabyte) +
-                      " MB (--memory)");
+  if (needed > limit || std::max<std::uint64_t>(chunk.size, unpacked) >= kLargestChunk) {
+    records_.refuse(chunk.position, "a chunk that takes " + inMegabytes(needed + kMegabyte),
+                    "at most " + inMegabytes(std::min(limit, 2 * kLargestChunk)) + " (--memory)");
+  }
+  return needed;
 }
 
-void BagCheck::checkIndex(const BagRecord& index, const BagRecord& chunk) {
+/// rosbag holds the index as a tree.
+void BagCheck::countMessages(std::uint32_t messages, const BagRecord& index) {
+  constexpr std::uint64_t kNode = 64;  // bytes of a message's time and place
+  messages_ += messages;
+  const std::uint64_t limit = pcrb::MemoryBudget::ofProcess().limit();
+  if (messages_ <= limit / kNode) return;
+  records_.refuse(index.position, "an index of more than " + inMegabytes(limit),
+                  "it below (--memory)");
+}
+
+void BagCheck::checkIndex(const BagRecord& index, Messages messages) {
   constexpr std::uint32_t kEntry = 12;  // bytes: seconds, nanoseconds, place in the chunk
-  const auto messages = records_.numberOf<std::uint32_t>(index, "count");
+  const auto count = records_.numberOf<std::uint32_t>(index, "count");
   const auto connection = records_.numberOf<std::uint32_t>(index, "conn");
-  if (index.size != std::uint64_t{kEntry} * messages || connections_.count(connection) == 0) {
+  if (index.size != std::uint64_t{kEntry} * count || connections_.count(connection) == 0) {
     records_.refuse(index.position,
                     std::to_string(index.size) + " bytes of connection " +
                         std::to_string(connection) + " in an index",
-                    std::to_string(kEntry) + " for each of " + std::to_string(messages) +
+                    std::to_string(kEntry) + " for each of " + std::to_string(count) +
                         " messages, of a connection that is there");
   }
-  for (std::uint32_t i = 0; i < messages; ++i) {
+  countMessages(count, index);
+  for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint64_t entry = index.data + std::uint64_t{kEntry} * i;
-    checkMessage(records_.number<std::uint32_t>(entry + 8), chunk);
+    checkMessage(records_.number<std::uint32_t>(entry + 8), connection, messages);
   }
 }
 
-/// What bz2 and lz4 have packed is known by its checksum to be what was written.
-void BagCheck::checkMessage(std::uint64_t place, const BagRecord& chunk) {
-  const auto refuse = [&] {
-    records_.refuse(chunk.position, "a message behind the end of a chunk", "it inside");
-  };
-  if (chunk.field("compression") != "none") {
-    if (place + 8 >= records_.numberOf<std::uint32_t>(chunk, "size")) refuse();
-    return;
+void BagCheck::checkMessage(std::uint64_t place, std::uint32_t connection, Messages messages) {
+  const std::uint64_t position = messages.begin + place;
+  if (position >= messages.end) {
+    messages.records.refuse(messages.begin, "a message behind the end of a chunk", "it inside");
   }
-  if (place >= chunk.size) refuse();
-  if (records_.at(chunk.data + place, BagRecordKind::kMessage).end() > chunk.end()) refuse();
+  const BagRecord message = messages.records.at(position, BagRecordKind::kMessage);
+  if (message.end() > messages.end) {
+    messages.records.refuse(position, "a message behind the end of a chunk", "it inside");
+  }
+  if (messages.records.numberOf<std::uint32_t>(message, "conn") != connection) {
+    messages.records.refuse(position, "a message of another connection",
+                            "one of " + std::to_string(connection) + ", as the index says");
+  }
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ void requireRos1Bag(const std::string& path);
 void requireWholeBag(const std::string& path);
 
 /// Makes sure that rosbag, which believes what it reads, can be given a bag: records lie where the
-/// index says, in the file and in their chunks, and every chunk fits into the process's
-/// MemoryBudget when it is unpacked. Reads no message, and unpacks nothing.
+/// index says, in the file and in their chunks, and index and every chunk fit into the process's
+/// MemoryBudget. Unpacks every packed chunk for that; of others it reads messages' headers only.
 ///
 /// @throws InvalidFile  as requireWholeBag(), or saying at which byte what is damaged or too large.
 void requireReadableBag(const std::string& path);

@@ -7,6 +7,7 @@
 
 #include "archives/bag_structure.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
+#include "support/bag_packer.hpp"
 #include "support/bag_writer.hpp"
 #include "support/expect_error.hpp"
 #include "support/log_folder.hpp"
@@ -101,12 +102,6 @@ TEST_F(BagMessagesTest, AChunkThatMemoryHasNoRoomForIsRefusedBeforeItIsUnpacked)
   }
 }
 
-/// The bag with other bytes behind the first of some.
-std::string withBytes(std::string bytes, const std::string& what, const std::string& instead) {
-  bytes.replace(bytes.find(what) + what.size(), instead.size(), instead);
-  return bytes;
-}
-
 TEST_F(BagMessagesTest, WhatRosbagWouldFollowOutOfTheFileIsRefused) {
   const std::string bytes = pcrb_test::readFile(path_);
   const std::string far(4, '\x7f');
@@ -114,9 +109,10 @@ TEST_F(BagMessagesTest, WhatRosbagWouldFollowOutOfTheFileIsRefused) {
     pcrb_test::writeFile(folder_.file("b.bag"), damaged);
     PCRB_EXPECT_ERROR(pcrb::InvalidFile, BagMessages({folder_.file("b.bag")}), error);
   };
-  expect(withBytes(bytes, "chunk_pos=", far), "cut or damaged");
-  expect(withBytes(bytes, "chunk_pos=", std::string("\x0d\0\0\0", 4)), "a record of another kind");
-  expect(withBytes(bytes, "size=", far), "found a chunk of");
+  expect(pcrb_test::withBytes(bytes, "chunk_pos=", far), "cut or damaged");
+  expect(pcrb_test::withBytes(bytes, "chunk_pos=", std::string("\x0d\0\0\0", 4)),
+         "a record of another kind");
+  expect(pcrb_test::withBytes(bytes, "size=", far), "found a chunk of");
   const std::size_t index = bytes.find("op=\x04");  // of the records behind the chunk
   const std::size_t count = bytes.rfind("count=", index) + 6;
   expect(bytes.substr(0, count) + far + bytes.substr(count + 4), "in an index at byte");
