@@ -38,6 +38,7 @@ class DoubleDouble {
 /// made.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define PCRB_HAS_CLONES
 #define PCRB_CLONES_AVX2 __attribute__((target_clones("avx2", "default")))
 #if __GNUC__ >= 12
 #define PCRB_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))

@@ -24,6 +24,11 @@ struct Displacement {
   double offset[3];     ///< m, what happens to the center
 };
 
+/// The partial sums added up, in the order that every version keeps.
+__attribute__((always_inline)) inline double sumOfLanes(const double (&sums)[kLanes]) {
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
 /// Σ weightᵢ · ‖displacement of pointᵢ‖; the padding's weights are 0.
 ///
 /// This is the body of the function below, for callers that choose the instruction set.
@@ -44,7 +49,7 @@ __attribute__((always_inline)) inline double sumOfNormsBody(const PointArrays& p
       sums[lane] += std::sqrt(dx * dx + dy * dy + dz * dz) * weights[i + lane];
     }
   }
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+  return sumOfLanes(sums);
 }
 
 /// sumOfNormsBody with the best instructions of the machine; the same bits on every machine.

@@ -79,13 +79,9 @@ TEST(MetricKernel, HasAnInputThatTellsOrdersApart) {
 
 #if defined(__x86_64__)
 
-// The instruction sets that the library chooses from, by their parts: GCC 9 does not know the
-// levels of x86-64, and GCC 12 inlines into no function for another processor.
+// By its parts: GCC 9 does not know the levels of x86-64, and GCC 12 inlines into no function for
+// another processor.
 __attribute__((target("avx2,fma"))) double withAvx2(const Input& input) {
-  return sumOfNormsBody(input.points(), input.weights.data(), input.displacement);
-}
-
-__attribute__((target("avx512f,avx512vl,avx512dq,fma"))) double withAvx512(const Input& input) {
   return sumOfNormsBody(input.points(), input.weights.data(), input.displacement);
 }
 
@@ -102,11 +98,10 @@ TEST(MetricKernel, GivesTheSameBitsWithAvx2) {
 }
 
 TEST(MetricKernel, GivesTheSameBitsWithAvx512) {
-  if (!__builtin_cpu_supports("avx512vl") || !__builtin_cpu_supports("avx512dq")) {
-    GTEST_SKIP() << "no AVX-512 here";
-  }
-  const Input input(kSize);
-  EXPECT_EQ(withAvx512(input), reference(input));
+  if (!__builtin_cpu_supports("avx512f")) GTEST_SKIP() << "no AVX-512 here";
+  const Input input(kSize);  // which the library has a loop of its own for
+  EXPECT_EQ(sumOfNorms(input.points(), input.weights.data(), input.displacement),
+            sumOfNormsBody(input.points(), input.weights.data(), input.displacement));
 }
 
 #endif
