@@ -12,6 +12,7 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
+#include "pcrb_core/run/results_store.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -78,6 +79,24 @@ std::string withAbsolutePath(const std::string& argument) {
   return name + ":=" + fs::absolute(path).lexically_normal().string();
 }
 
+/// Whether a problem of the batch has a result; also where that cannot be found out.
+bool hasResults(const std::string& run) {
+  std::vector<std::string> folders{run};
+  if (fs::exists(run + "/shards")) {
+    for (const auto& entry : fs::directory_iterator(run + "/shards")) {
+      folders.push_back(entry.path().string());
+    }
+  }
+  return std::any_of(folders.begin(), folders.end(), [](const std::string& folder) {
+    if (!fs::exists(folder + "/results.sqlite")) return false;
+    try {
+      return pcrb::ResultsStore(folder, pcrb::ResultsStore::Access::kReadOnly).count() > 0;
+    } catch (const pcrb::StoreError&) {
+      return true;
+    }
+  });
+}
+
 }  // namespace
 
 int numberOfShards(const BatchOptions& options) {
@@ -97,7 +116,7 @@ void noteConfiguration(const BatchOptions& options, int shards) {
   const auto asked = configuration(options, shards);
   const auto noted = readLines(noteFile(options));
   if (noted == asked) return;
-  if (!noted.empty()) {
+  if (!noted.empty() && hasResults(options.run)) {
     throw pcrb::Error(noteFile(options) + ": the folder holds another batch: found" +
                       listLess(noted, asked) + ", asked for" + listLess(asked, noted) +
                       "; give another folder, or the arguments of this one");

@@ -39,8 +39,8 @@ int runBatchTool(const BatchOptions& options);
 /// @throws pcrb::Error  if the note in the folder is of something else.
 int numberOfShards(const BatchOptions& options);
 
-/// Notes in `<run>/batch.txt` what is run, if nothing is noted there, so that no other program can
-/// go on with it.
+/// Notes in `<run>/batch.txt` what is run, if nothing is noted there or no problem has a result, so
+/// that no other program can go on with it.
 /// @throws pcrb::Error  if something else is noted, naming every difference.
 void noteConfiguration(const BatchOptions& options, int shards);
 

@@ -7,6 +7,8 @@
 
 #include "benchmarking/child_process.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/run/results_store.hpp"
+#include "run/some_results.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -21,6 +23,13 @@ BatchOptions optionsIn(const std::string& folder) {
   options.arguments = {"root:=" + folder, "method:=icp"};
   options.jobs = 3;
   return options;
+}
+
+/// To the first shard of a batch.
+void addResult(const std::string& run) {
+  pcrb::ResultsStore store(run + "/shards/0", pcrb::ResultsStore::Access::kReadWrite);
+  store.setRunInfo({{"seed", "7"}});
+  store.add(pcrb_test::fullResult("4215528471000"));
 }
 
 TEST(LaunchArguments, AreThoseOfTheLaunchFileAndNotThoseThatRoslaunchAppends) {
@@ -76,12 +85,29 @@ TEST(BatchConfiguration, TakesArgumentsInAnyOrderAndRefusesOthers) {
   const pcrb_test::TemporaryFolder folder;
   BatchOptions options = optionsIn(folder.path());
   noteConfiguration(options, 3);
+  addResult(folder.path());
   std::swap(options.arguments[0], options.arguments[1]);
   noteConfiguration(options, 3);
   options.arguments[0] = "method:=ndt";
   pcrb_test::expectError<pcrb::Error>([&] { noteConfiguration(options, 4); },
                                       "found `shards 3` `method:=icp`",
                                       "asked for `shards 4` `method:=ndt`");
+}
+
+TEST(BatchConfiguration, TakesOtherArgumentsAsLongAsNoProblemHasAResult) {
+  const pcrb_test::TemporaryFolder folder;
+  BatchOptions options = optionsIn(folder.path());
+  noteConfiguration(options, 3);
+  {
+    const pcrb::ResultsStore begun(folder.path() + "/shards/0",
+                                   pcrb::ResultsStore::Access::kReadWrite);
+  }
+  options.arguments[1] = "method:=ndt";
+  noteConfiguration(options, 3);
+  addResult(folder.path());
+  options.arguments[1] = "method:=icp";
+  pcrb_test::expectError<pcrb::Error>([&] { noteConfiguration(options, 3); }, "found `method:=ndt`",
+                                      "asked for `method:=icp`");
 }
 
 TEST(BatchConfiguration, RefusesOtherContentOfAFileThatAnArgumentNames) {
@@ -91,6 +117,7 @@ TEST(BatchConfiguration, RefusesOtherContentOfAFileThatAnArgumentNames) {
   options.arguments.push_back("parameters:=" + file);
   std::ofstream(file) << "max_iterations: 35\n";
   noteConfiguration(options, 3);
+  addResult(folder.path());
   noteConfiguration(options, 3);
   std::ofstream(file) << "max_iterations: 1\n";
   pcrb_test::expectError<pcrb::Error>([&] { noteConfiguration(options, 3); },
