@@ -49,7 +49,8 @@ def text_of(name, recipe):
         return '\n'.join([*lines, '    not tried with the real node: as its sources say']) + '\n'
     lines.append(f'    tried with the real node on {tried["date"]}, by PCRB {tried["commit"]}')
     for sequence, score in scores.items():
-        lines.append(f'    {sequence}: median {score["median"]:g} (do nothing {score["do_nothing"]:g}), {score["replied"]} of '
+        tuned = ' (its settings were found on it)' if sequence in recipe['tuned_on'] else ''
+        lines.append(f'    {sequence}{tuned}: median {score["median"]:g} (do nothing {score["do_nothing"]:g}), {score["replied"]} of '
                      f'{score["problems"]} replied, scans used: {score["scans"]:g}, of {score["time_per_scan"]:g} s each')
     return '\n'.join(lines) + '\n'
 
