@@ -159,10 +159,23 @@ class BridgeAnswersTest(AnsweringTestCase):
             self.assertRegex(row['reason'], r'the node said nothing to \d+ scans')
             self.assertEqual(row['error'], row['initial_misalignment'])
 
-    def test_answers_of_an_unknown_type_time_out_with_the_reason(self):
+    def test_answers_of_a_type_that_is_no_pose_are_refused_before_a_problem_counts(self):
         server = self.localization(sequences='kitchen', subset=1)
-        publisher = self.publisher(f'{server.namespace}/robot/pose', String)
-        self.robot(server, lambda stamp, T: self.say(publisher, 'here'))
+        self.publisher(f'{server.namespace}/robot/pose', String)
+        self.robot(server, lambda stamp, T: None)
+        self.assert_fails(self.bridge(server), f'{server.namespace}/robot/pose .*: found messages of type std_msgs/String, expected')
+        self.assertEqual(server.rows(), [])
+
+    def test_such_answers_on_a_topic_that_comes_with_the_first_scan_time_out_with_the_reason(self):
+        server = self.localization(sequences='kitchen', subset=1)
+        publishers = []
+
+        def say(stamp, T):
+            if not publishers:
+                publishers.append(self.publisher(f'{server.namespace}/robot/pose', String))
+            self.say(publishers[0], 'here')
+
+        self.robot(server, say)
         row, = self.rows_of_bridge(server, self.bridge(server, settle='first', **IMPATIENT)).values()
         self.assertEqual(row['outcome'], 'timed_out')
         self.assertRegex(row['reason'], f'{server.namespace}/robot/pose: found messages of type std_msgs/String, expected')

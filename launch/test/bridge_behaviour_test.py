@@ -221,7 +221,7 @@ rospy.spin()
 
         robot = self.robot(server, publish, MOTION)
         self.assert_fails(self.bridge(server, settle='first'),
-                          rf'{rospy.get_name()} publishes the tf frame base_link \(in map\); or set ~tf_odom_base:=none')
+                          rf'{rospy.get_name()} publishes the tf frame base_link \(in map\); or set `tf_odom_base: none` in bridge_parameters')
         self.assertEqual(server.rows(), [])  # so that the run goes on with other parameters
         self.assert_motion_is_scored(self.scores(server, tf_odom_base='none'))
 

@@ -16,12 +16,12 @@ GIVES_UP = {'deadline_fraction': 0.1}  # after 4 s of the server's 40
 BETWEEN = {'scan_period': 0.3, 'answer_limit': 0.3}
 DIAGNOSES = {
     'now': STAMP,
-    'ahead': r'^stamp: \d+ poses? with the stamp of no scan, 0\.200 s later: set ~answer_delay:=0\.200$',
+    'ahead': r'^stamp: \d+ poses? with the stamp of no scan, 0\.200 s later: set `answer_delay: 0\.200` in bridge_parameters$',
     'frame': r'^frame: \d+ poses?: tf does not connect the pose of `` in `world` with `base_link` and `map`$',
     'nan': r'^invalid: \d+ poses?: \S+/pose: .*(finite|quaternion)',
     'silent': r'^silent: the node said nothing to \d+ scans?, and worked for \d+\.\d s of \d+\.\d s: .*see what it printed$'}
 TOPIC = (r'the node said nothing to \d+ scans?: no node publishes \S+/robot/pose; poses are published on .*'
-         r'/robot/somewhere \(geometry_msgs/PoseStamped by \S+/ill_mannered_localizer\).*: set ~pose_topic')
+         r'/robot/somewhere \(geometry_msgs/PoseStamped by \S+/ill_mannered_localizer\).*: set pose_topic:=/')
 
 
 class BridgeDiagnosisTest(AnsweringTestCase):
@@ -65,7 +65,7 @@ class BridgeDiagnosisTest(AnsweringTestCase):
         server = self.localization(run='owner', sequences='kitchen', subset=1)
         self.ill_mannered(server, 'owner')
         self.assert_fails(self.bridge(server), r'ill_mannered_localizer publishes \S+/robot/map',
-                          r'publishes the tf frame sensor \(in base_link\); or set ~tf_base_scan:=none')
+                          r'publishes the tf frame sensor \(in base_link\); or set `tf_base_scan: none` in bridge_parameters')
         self.assertEqual(server.rows(), [])
 
     def test_a_node_that_dies_of_its_first_scan_has_left(self):

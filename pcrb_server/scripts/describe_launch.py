@@ -4,7 +4,8 @@
 describe_launch.py PARAMETER FILE|PACKAGE FILE [name:=value ...]
 
 The parameter is a list of `what: value`: hash of each launch file and of each program, and each parameter that it sets. An
-argument that the launch file does not have, or one that it needs and does not get, ends this with status 1 and a line each.
+argument that the launch file does not have, or one that it needs and does not get, ends this with status 1: the mistakes are
+the list `launch_mistakes` beside that parameter.
 """
 import difflib
 import hashlib
@@ -81,6 +82,8 @@ def programs_of(nodes):
             hashes[f'{node.package}/{node.type}'] = 'not found'
     if missing and len(missing) == len(nodes):
         raise missing[0]
+    for error in missing:
+        print(f'[node_supervisor] the node\'s launch file goes on without one of its nodes: {error}', flush=True)
     return hashes
 
 
@@ -130,8 +133,9 @@ def main(words):
             rosgraph.Master('/describe_launch').setParam(parameter, description(load(path, arguments)))
     except (roslaunch.RLException, roslaunch.xmlloader.XmlParseException, OSError, NotFound) as error:
         mistakes = [str(error)]
-    for mistake in mistakes:
-        print(mistake, file=sys.stderr)
+    if mistakes:
+        lines = [' '.join(mistake.split()) for mistake in mistakes]
+        rosgraph.Master('/describe_launch').setParam(parameter.rpartition('/')[0] + '/launch_mistakes', lines)
     return 1 if mistakes else 0
 
 

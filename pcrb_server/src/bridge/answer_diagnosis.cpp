@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bridge/setup_check.hpp"
 #include "pcrb_core/io/number.hpp"
 
 namespace pcrb {
@@ -32,6 +33,21 @@ double medianOf(std::vector<double> numbers) {
   return *middle;
 }
 
+/// `; poses are published on …`; empty for none.
+std::string describe(const std::vector<PoseTopic>& topics) {
+  std::string text;
+  for (const auto& topic : topics) {
+    text += (text.empty() ? "; poses are published on " : ", ") + topic.topic + " (" + topic.type +
+            " by " + topic.nodes + ")";
+  }
+  return text;
+}
+
+std::string howToChooseFrom(const std::vector<PoseTopic>& topics) {
+  return ": set " + howToSet("pose_topic", topics.empty() ? "TOPIC" : topics.front().topic) +
+         ", or pose_topic:=tf if it answers on tf";
+}
+
 std::string posesOf(int count) { return std::to_string(count) + (count == 1 ? " pose" : " poses"); }
 
 }  // namespace
@@ -53,9 +69,9 @@ std::string AnswerDiagnosis::describe(AnswerFault fault, const Count& count) con
   const std::string median = formatFixed(medianOf(lateness_), 3);
   const bool is_even = *most - *least <= kEven;
   return posesOf(count.poses) + " with the stamp of no scan, " + median +
-         (is_even ? " s later: set ~answer_delay:=" + median
-                  : " s later in the median: set ~match:=arrival, or ~answer_delay where the delay "
-                    "is constant");
+         (is_even ? " s later: set " + howToSet("answer_delay", median)
+                  : " s later in the median: set " + howToSet("match", "arrival") +
+                        ", or answer_delay where the delay is constant");
 }
 
 NoAnswerCause AnswerDiagnosis::cause() const {
@@ -71,20 +87,32 @@ NoAnswerCause AnswerDiagnosis::cause() const {
   return cause;
 }
 
+std::string describeSilence(const std::string& topic, const std::vector<PoseTopic>& others) {
+  return "no node publishes " + topic + " (pose_topic) so far" + describe(others) +
+         (others.empty() ? "" : howToChooseFrom(others));
+}
+
+std::string describeWrongType(const std::string& topic, const std::string& type,
+                              const std::vector<PoseTopic>& others) {
+  return topic + " (pose_topic): found messages of type " + type +
+         ", expected PoseStamped, PoseWithCovarianceStamped, TransformStamped or Odometry" +
+         describe(others) + howToChooseFrom(others);
+}
+
+std::string adviceOnTopic(const NoAnswerCause& cause, const std::vector<PoseTopic>& others) {
+  return cause.text + howToChooseFrom(others);
+}
+
 NoAnswerCause causeOf(const Silence& silence, const std::string& scans) {
   const std::string nothing = "the node said nothing to " + scans;
   if (!silence.is_published) {
-    std::string text = nothing + ": no node publishes " + silence.pose_topic;
-    for (const auto& other : silence.other_topics) {
-      text += (&other == &silence.other_topics.front() ? "; poses are published on " : ", ") +
-              other.topic + " (" + other.type + " by " + other.nodes + ")";
-    }
-    return {"topic", text};
+    const std::string others = describe(silence.other_topics);
+    return {"topic", nothing + ": no node publishes " + silence.pose_topic + others};
   }
   const bool is_busy = silence.cpu_time >= 0.0 && silence.cpu_time > kBusyShare * silence.elapsed;
   if (is_busy) {
     return {"busy", nothing + ": it has worked for " + formatFixed(silence.cpu_time, 1) + " s of " +
-                        formatFixed(silence.elapsed, 1) + " s: give it more ~time_limit"};
+                        formatFixed(silence.elapsed, 1) + " s: give it more time_limit"};
   }
   return {"silent", nothing + (silence.cpu_time < 0.0
                                    ? ""
@@ -125,7 +153,7 @@ std::string MisalignmentCheck::warning() const {
   if (!(error > misalignment)) return "";
   return "warning: the median error of the node's poses, " + formatFixed(error, 4) +
          ", is worse than that of the initial guesses, " + formatFixed(misalignment, 4) +
-         ": is ~settle right for this node, and are frames and ~answer_frame?";
+         ": is settle right for this node, and are frames and answer_frame?";
 }
 
 }  // namespace pcrb

@@ -64,6 +64,17 @@ struct Silence {
   double cpu_time = -1.0;               ///< s that the node used meanwhile; negative: unknown
 };
 
+/// Before the first scan: nobody publishes the topic of the answers, and what to set if a node
+/// does elsewhere.
+std::string describeSilence(const std::string& topic, const std::vector<PoseTopic>& others);
+
+/// What is published on the topic of the answers is no pose.
+std::string describeWrongType(const std::string& topic, const std::string& type,
+                              const std::vector<PoseTopic>& others);
+
+/// A cause that ends a run, with what to set.
+std::string adviceOnTopic(const NoAnswerCause& cause, const std::vector<PoseTopic>& others);
+
 /// The cause of a silence.
 /// @param scans  e.g. `23 scans`.
 NoAnswerCause causeOf(const Silence& silence, const std::string& scans);

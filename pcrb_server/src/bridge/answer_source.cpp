@@ -98,16 +98,20 @@ void AnswerSource::take(const topic_tools::ShapeShifter::ConstPtr& message) {
   listener_(*pose);
 }
 
-std::vector<PoseTopic> publishedPoseTopics(const std::string& excluded) {
+bool isPoseType(const std::string& type) {
   static const std::set<std::string> kPoseTypes{
       "geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped",
       "geometry_msgs/TransformStamped", "nav_msgs/Odometry"};
+  return kPoseTypes.count(type) > 0;
+}
+
+std::vector<PoseTopic> publishedPoseTopics(const std::string& excluded) {
   ros::master::V_TopicInfo topics;
   if (!ros::master::getTopics(topics)) return {};
   const PublishersByTopic publishers = publishersByTopic();
   std::vector<PoseTopic> found;
   for (const auto& topic : topics) {
-    if (kPoseTypes.count(topic.datatype) == 0 || topic.name == excluded) continue;
+    if (!isPoseType(topic.datatype) || topic.name == excluded) continue;
     std::string nodes;
     const auto [first, last] = publishers.equal_range(topic.name);
     for (auto node = first; node != last; ++node) {

@@ -51,6 +51,9 @@ class AnswerSource {
   ros::Subscriber subscriber_;
 };
 
+/// Whether AnswerSource reads a type, e.g. `nav_msgs/Odometry`.
+bool isPoseType(const std::string& type);
+
 /// Topics of a type that AnswerSource reads, with the other nodes that publish them; empty if the
 /// master does not answer.
 ///

@@ -3,8 +3,10 @@
 #include <ros/this_node.h>
 #include <tf2/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "bridge/setup_check.hpp"
 #include "pcrb_server/message_conversion.hpp"
 
 namespace pcrb {
@@ -72,10 +74,11 @@ std::map<std::string, OwnedFrame> TfLinks::ownedChildren() const {
 
 std::string adviceOn(const OwnedFrame& owned, const std::string& frame, const std::string& parent) {
   if (owned.is_scan && parent != owned.parent) {
-    return "if it localizes the sensor itself, set ~base_frame:=" + frame +
-           " and ~tf_odom_base:=none";
+    return "if it localizes the sensor itself, set " + howToSet("base_frame", frame) + " and " +
+           howToSet("tf_odom_base", "none");
   }
-  return "or set ~" + owned.parameter + ":=none if the localizer publishes " + frame + " itself";
+  return "or set " + howToSet(owned.parameter, "none") + " if the localizer publishes " + frame +
+         " itself";
 }
 
 TfWatch::TfWatch(ros::NodeHandle& node, std::map<std::string, OwnedFrame> owned, Listener listener)
@@ -97,6 +100,7 @@ void TfWatch::take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bo
   std::vector<geometry_msgs::TransformStamped> taken;
   for (const auto& transform : event.getMessage()->transforms) {
     const std::string child = withoutSlash(transform.child_frame_id);
+    frames_.insert({child, withoutSlash(transform.header.frame_id)});
     const auto owned = owned_.find(child);
     if (!is_own && owned != owned_.end() && conflict_.empty()) {
       const std::string parent = withoutSlash(transform.header.frame_id);

@@ -13,6 +13,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -99,6 +100,9 @@ class TfWatch {
   std::optional<Transform> find(const std::string& target, const std::string& frame,
                                 const ros::Time& stamp) const;
 
+  /// All frames that were on tf.
+  const std::set<std::string>& frames() const { return frames_; }
+
   /// The node that publishes a child frame of this one, the frame, and what to do if that is as it
   /// should be; empty if there is none.
   const std::string& conflict() const { return conflict_; }
@@ -109,6 +113,7 @@ class TfWatch {
   std::map<std::string, OwnedFrame> owned_;
   Listener listener_;
   std::string conflict_;
+  std::set<std::string> frames_;
   tf2::BufferCore buffer_;
   ros::Subscriber tf_;
   ros::Subscriber tf_static_;

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
 #include "pcrb_core/run/result.hpp"
 #include "pcrb_server/message_conversion.hpp"
 #include "pcrb_server/topics.hpp"
 #include "ros/node_calls.hpp"
+#include "ros/notices.hpp"
 
 namespace pcrb {
 
@@ -112,6 +113,7 @@ LocalizationBridge::Step LocalizationBridge::settle() {
   settleMap();
   if (!isCurrent()) return Step::kWaitForMap;
   refuseConflicts();
+  checkTopics();
   conflicts_.beginRun();
   monitor_.beginPlay();
   if (!server_.callReady()) {
@@ -164,9 +166,9 @@ LocalizationBridge::Step LocalizationBridge::drainNode() {
     return will_be_new || monitor_.hasLeft() || server_.isFinished() || scans.timeToFinish() <= 0.0;
   };
   if (!waitFor(is_finished, parameters_.finish_limit) && !shutdown_.requested()) {
-    std::cout << "the node under test may still be working on a scan of the last problem after "
-              << parameters_.finish_limit
-              << " s: the next one may start from that scan's pose (~finish_limit)" << std::endl;
+    tellPeople("the node under test may still be working on a scan of the last problem after " +
+               formatShortest(parameters_.finish_limit) +
+               " s: the next one may start from that scan's pose (finish_limit)");
   }
   response_time_ = scans.responseTime();
   return Step::kWaitForMap;
@@ -221,7 +223,7 @@ NoAnswerCause LocalizationBridge::causeOfNoAnswer(double cpu_time) const {
 
 void LocalizationBridge::printDiagnosis() const {
   for (const auto& text : {failures_.table(), misalignment_.warning()}) {
-    if (!text.empty()) std::cout << text << std::endl;
+    if (!text.empty()) tellPeople(text);
   }
 }
 
@@ -235,8 +237,7 @@ void LocalizationBridge::callAfterFirstScan() {
   if (!is_processed) return;
   served_->was_called = true;
   if (callEmptyOrTrigger(node_, parameters_.after_first_scan)) return;
-  std::cout << "the service " << parameters_.after_first_scan << " (~after_first_scan) failed"
-            << std::endl;
+  tellPeople("the service " + parameters_.after_first_scan + " (after_first_scan) failed");
 }
 
 /// Whatever is wrong from the start is refused before a problem counts: a run without a result may
@@ -248,7 +249,8 @@ void LocalizationBridge::refuseWrongSetup(const Request& request) {
   was_answered_ = served_->scans->isAnswered();
   const bool is_mute = request.status == Request::TIMED_OUT && answers_ && !answers_->isPublished();
   if (!is_mute || was_answered_) return;
-  throw Error(causeOfNoAnswer(-1.0).text + ": set ~pose_topic");
+  const auto others = publishedPoseTopics(node_.resolveName(topics::kInitialPose));
+  throw Error(adviceOnTopic(causeOfNoAnswer(-1.0), others));
 }
 
 void LocalizationBridge::submit(Request request) {
@@ -264,7 +266,7 @@ void LocalizationBridge::submit(Request request) {
     const NoAnswerCause cause = causeOfNoAnswer(usage ? usage->cpu_time : -1.0);
     request.reason = cause.code + ": " + cause.text;
     const std::string message = failures_.note(cause);
-    if (!message.empty()) std::cout << message << std::endl;
+    if (!message.empty()) tellPeople(message);
   }
   server_.submit(request);
 }

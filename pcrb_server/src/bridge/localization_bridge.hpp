@@ -13,8 +13,10 @@
 #include "bridge/node_monitor.hpp"
 #include "bridge/robot_inputs.hpp"
 #include "bridge/scan_publisher.hpp"
+#include "bridge/setup_check.hpp"
 #include "pcrb_server/node_main.hpp"
 #include "pcrb_server/server_connection.hpp"
+#include "ros/notices.hpp"
 #include "ros/topic_peers.hpp"
 
 namespace pcrb {
@@ -34,6 +36,7 @@ class LocalizationBridge {
 
  private:
   using Condition = std::function<bool()>;
+  using Description = std::function<std::string()>;
 
   /// The way of a problem. From each step but the last it goes back to the first when the server
   /// announces another problem.
@@ -70,10 +73,13 @@ class LocalizationBridge {
   Step drainNode();
 
   bool waitFor(const Condition& condition, double limit);
+  bool waitWhileCurrent(const Condition& condition, const Description& what);
   bool waitWhileCurrent(const Condition& condition, const std::string& what);
   void pause(double seconds);
   bool isCurrent() const;
   void refuseConflicts();
+  TopicGraph topicsOfOthers() const;
+  void checkTopics();
 
   void takeTransform(const geometry_msgs::TransformStamped& transform);
   bool isMapDue() const { return published_map_ != served_->target->header.stamp; }
@@ -110,6 +116,8 @@ class LocalizationBridge {
   NodeHistory history_;
   ResponseTime response_time_;  ///< of the node, from the problems so far
   bool was_answered_ = false;   ///< whether a problem had an answer
+  Notice untaken_;              ///< inputs that no node takes
+  Notice silent_;               ///< the topic of answers, on which no node publishes
   FailureLog failures_;
   MisalignmentCheck misalignment_;
 };

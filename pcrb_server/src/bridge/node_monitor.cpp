@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 
 #include "ros/node_calls.hpp"
+#include "ros/notices.hpp"
 
 namespace pcrb {
 
@@ -83,11 +83,10 @@ bool NodeMonitor::restart() {
       client.waitForExistence(ros::Duration(is_supervised ? kSupervisorLimit : kQuestionLimit)) &&
       client.call(service);
   if (is_answered && service.response.success != 0) return true;
-  std::cout << "the node under test cannot be restarted: "
-            << (is_answered
-                    ? service.response.message
-                    : "no node answers on " + client.getService() + " (only under node_supervisor)")
-            << std::endl;
+  tellPeople("the node under test cannot be restarted: " +
+             (is_answered
+                  ? std::string(service.response.message)
+                  : "no node answers on " + client.getService() + " (only under node_supervisor)"));
   before_.clear();
   return false;
 }
@@ -130,7 +129,7 @@ bool NodeMonitor::isHanging() const {
 
 void NodeMonitor::endProblem(bool is_answered) {
   if (hasLeft()) {
-    std::cout << "the node under test has left: it is started anew" << std::endl;
+    tellPeople("the node under test has left: it is started anew");
     needs_restart_ = true;  // its launch file may go on without it
   }
   unanswered_ = is_answered ? 0 : unanswered_ + 1;
@@ -138,11 +137,11 @@ void NodeMonitor::endProblem(bool is_answered) {
   const bool is_silent = parameters_.restart_after > 0 && unanswered_ >= parameters_.restart_after;
   const bool is_hanging = isHanging();
   if (!is_silent && !is_hanging) return;
-  std::cout << "the node under test "
-            << (is_hanging ? "hangs"
-                           : "has not answered " + std::to_string(unanswered_) +
-                                 (unanswered_ == 1 ? " problem" : " problems"))
-            << ": it is restarted" << std::endl;
+  tellPeople(std::string("the node under test ") +
+             (is_hanging ? "hangs"
+                         : "has not answered " + std::to_string(unanswered_) +
+                               (unanswered_ == 1 ? " problem" : " problems")) +
+             ": it is restarted");
   needs_restart_ = true;
   unanswered_ = 0;
 }

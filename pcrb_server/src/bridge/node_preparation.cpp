@@ -1,10 +1,12 @@
 #include <ros/callback_queue.h>
 
 #include <algorithm>
-#include <iostream>
 
 #include "bridge/localization_bridge.hpp"
+#include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
 #include "pcrb_server/message_conversion.hpp"
+#include "pcrb_server/topics.hpp"
 #include "ros/node_calls.hpp"
 
 /// The bridge's work before it plays scans: node, map, mounting of the sensor, initial pose; and
@@ -31,15 +33,51 @@ bool LocalizationBridge::waitFor(const Condition& condition, double limit) {
   return !shutdown_.requested();
 }
 
-/// Waits as long as the problem is the newest one, and prints a reminder of what it waits for.
-bool LocalizationBridge::waitWhileCurrent(const Condition& condition, const std::string& what) {
+/// Waits as long as the problem is the newest one, and tells people what for.
+bool LocalizationBridge::waitWhileCurrent(const Condition& condition, const Description& what) {
   const auto is_over = [&] { return condition() || !isCurrent(); };
+  Notice notice;
   while (!waitFor(is_over, kReminderPeriod)) {
     if (shutdown_.requested()) return false;
-    std::cout << "waiting for " << what << std::endl;
+    notice.tell("waiting for " + what());
     refuseConflicts();
   }
   return isCurrent();
+}
+
+bool LocalizationBridge::waitWhileCurrent(const Condition& condition, const std::string& what) {
+  return waitWhileCurrent(condition, [&what] { return what; });
+}
+
+/// What this node publishes is among them, so that nobody is said to wait for it.
+TopicGraph LocalizationBridge::topicsOfOthers() const {
+  TopicGraph graph{topicTypes(), publishersByTopic(), subscribersByTopic()};
+  for (auto* nodes : {&graph.publishers, &graph.subscribers}) {
+    for (auto entry = nodes->begin(); entry != nodes->end();) {
+      const std::string& name = entry->second;
+      const bool is_sent_here = nodes == &graph.publishers && name == ros::this_node::getName();
+      const bool is_other = name != ros::this_node::getName() && !inputs_.isObserver(name);
+      entry = is_other || is_sent_here ? std::next(entry) : nodes->erase(entry);
+    }
+  }
+  return graph;
+}
+
+/// Tells of topics that may be others than those of the node under test, as long as it has not
+/// answered.
+/// @throws Error  if what is published on ~pose_topic is no pose.
+void LocalizationBridge::checkTopics() {
+  if (was_answered_) return;
+  const TopicGraph graph = topicsOfOthers();
+  untaken_.tell(describeUntaken(inputs_.untaken(), graph));
+  if (!answers_) return;
+  const std::string topic = node_.resolveName(parameters_.pose_topic);
+  const auto others = publishedPoseTopics(node_.resolveName(topics::kInitialPose));
+  if (graph.publishers.count(topic) == 0) return silent_.tell(describeSilence(topic, others));
+  const auto known = graph.types.find(topic);
+  const std::string type = known == graph.types.end() ? "*" : known->second;
+  if (type == "*" || isPoseType(type)) return;
+  throw Error(describeWrongType(topic, type, others));
 }
 
 void LocalizationBridge::pause(double seconds) {
@@ -61,14 +99,15 @@ bool LocalizationBridge::bringUpNode() {
   const auto is_there = [this] { return monitor_.isThere() || !isCurrent(); };
   if (monitor_.needsRestart()) monitor_.restart();
   double start = steadyNow();
+  Notice notice;
   while (!waitFor(is_there, std::min(kReminderPeriod, parameters_.start_limit))) {
     if (shutdown_.requested()) return false;
-    std::cout << "waiting for a node that subscribes to "
-              << node_.resolveName(parameters_.scan_topic) << std::endl;
+    notice.tell(describeWait(node_.resolveName(parameters_.scan_topic), inputs_.untaken(),
+                             topicsOfOthers()));
     refuseConflicts();
     if (steadyNow() - start < parameters_.start_limit || parameters_.restart_after == 0) continue;
-    std::cout << "there was none within " << parameters_.start_limit << " s (~start_limit)"
-              << std::endl;
+    tellPeople("there was none within " + formatShortest(parameters_.start_limit) +
+               " s (start_limit): it is started anew");
     monitor_.restart();
     start = steadyNow();
   }
@@ -102,7 +141,11 @@ bool LocalizationBridge::findMounting() {
     found = tf_.find(p.base_frame, p.scan_frame, ros::Time());
     return found.has_value();
   };
-  if (!waitWhileCurrent(is_found, "tf from " + p.base_frame + " to " + p.scan_frame)) return false;
+  const auto what = [&] {
+    return "tf from " + p.base_frame + " to " + p.scan_frame + "; " +
+           adviceOnMounting(p.base_frame, p.scan_frame, tf_.frames());
+  };
+  if (!waitWhileCurrent(is_found, Description(what))) return false;
   served_->mounting.T_base_scan = *found;
   return true;
 }
@@ -110,7 +153,8 @@ bool LocalizationBridge::findMounting() {
 bool LocalizationBridge::callBeforeProblem() {
   if (parameters_.before_problem.empty()) return true;
   const auto is_called = [this] { return callEmptyOrTrigger(node_, parameters_.before_problem); };
-  return waitWhileCurrent(is_called, "the service " + parameters_.before_problem);
+  return waitWhileCurrent(is_called,
+                          "the service " + parameters_.before_problem + " (before_problem)");
 }
 
 bool LocalizationBridge::isOptical() const {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
@@ -123,6 +124,27 @@ std::set<std::string> RobotInputs::allNodes() const {
   nodes.merge(map_listeners_.names());
   nodes.merge(initial_pose_listeners_.names());
   return nodes;
+}
+
+std::vector<RobotTopic> RobotInputs::untaken() const {
+  const std::string cloud = "sensor_msgs/PointCloud2";
+  std::vector<RobotTopic> topics;
+  const auto add = [&](bool is_taken, const char* parameter, const ros::Publisher& publisher,
+                       const std::string& type) {
+    if (!is_taken) topics.push_back({parameter, publisher.getTopic(), type});
+  };
+  add(isScanTaken(), "scan_topic", scan_, cloud);
+  const bool is_map_read = !parameters_.map_file.empty();
+  add(is_map_read || !map_listeners_.names().empty(), "map_topic", map_, cloud);
+  add(!parameters_.send_initialpose || isInitialPoseTaken(), "initialpose_topic", initial_pose_,
+      "geometry_msgs/PoseWithCovarianceStamped");
+  for (const auto& [stream, parameter, type] :
+       {std::tuple(&imu_, "imu_topic", "sensor_msgs/Imu"),
+        std::tuple(&odometry_, "odometry_topic", "nav_msgs/Odometry")}) {
+    const ros::Publisher& publisher = stream->publisher;
+    add(!publisher || publisher.getNumSubscribers() > 0, parameter, publisher, type);
+  }
+  return topics;
 }
 
 void RobotInputs::sendStaticLinks() { links_.sendStatic(now()); }

@@ -12,9 +12,11 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "bridge/bridge_parameters.hpp"
 #include "bridge/frames.hpp"
+#include "bridge/setup_check.hpp"
 #include "bridge/straight_motion.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/point_cloud.hpp"
@@ -116,6 +118,9 @@ class RobotInputs {
 
   /// All that take scan, map or initial pose now, observers excepted.
   std::set<std::string> allNodes() const;
+
+  /// What is sent and no node subscribes to now.
+  std::vector<RobotTopic> untaken() const;
 
   bool isObserver(const std::string& node) const { return scan_listeners_.isObserver(node); }
 

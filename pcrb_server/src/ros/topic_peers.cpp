@@ -5,11 +5,11 @@
 #include <ros/this_node.h>
 
 #include <algorithm>
-#include <iostream>
 #include <iterator>
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "ros/notices.hpp"
 
 namespace pcrb {
 
@@ -79,12 +79,17 @@ namespace {
 constexpr int kPublishers = 0;  // parts of the master's state
 constexpr int kSubscribers = 1;
 
-std::multimap<std::string, std::string> nodesByTopic(int part) {
-  XmlRpc::XmlRpcValue arguments, response, state;
+XmlRpc::XmlRpcValue askMaster(const std::string& question) {
+  XmlRpc::XmlRpcValue arguments, response, answer;
   arguments[0] = ros::this_node::getName();
-  if (!ros::master::execute("getSystemState", arguments, response, state, false)) {
+  if (!ros::master::execute(question, arguments, response, answer, false)) {
     throw Error("the ROS master does not answer");
   }
+  return answer;
+}
+
+std::multimap<std::string, std::string> nodesByTopic(int part) {
+  XmlRpc::XmlRpcValue state = askMaster("getSystemState");
   std::multimap<std::string, std::string> nodes;
   XmlRpc::XmlRpcValue topics = state[part];  // [[topic, [node, …]], …]
   for (int i = 0; i < topics.size(); ++i) {
@@ -98,6 +103,17 @@ std::multimap<std::string, std::string> nodesByTopic(int part) {
 }  // namespace
 
 PublishersByTopic publishersByTopic() { return nodesByTopic(kPublishers); }
+
+std::multimap<std::string, std::string> subscribersByTopic() { return nodesByTopic(kSubscribers); }
+
+std::map<std::string, std::string> topicTypes() {
+  std::map<std::string, std::string> types;
+  XmlRpc::XmlRpcValue topics = askMaster("getTopicTypes");  // [[topic, type], …]
+  for (int i = 0; i < topics.size(); ++i) {
+    types[std::string(topics[i][0])] = std::string(topics[i][1]);
+  }
+  return types;
+}
 
 std::vector<std::string> subscribersElsewhere(const std::string& name) {
   const std::string own = ros::names::resolve(name);
@@ -125,8 +141,8 @@ bool ConflictingPublishers::isAllowed(const std::string& node, const std::string
   if (!is_initialpose) return std::find(owned_.begin(), owned_.end(), topic) == owned_.end();
   if (is_observer_(node)) return true;
   if (has_begun_ && warned_.insert(node).second) {
-    std::cout << "warning: " << node << " advertises " << topic
-              << ": a pose from it would spoil the problem in flight" << std::endl;
+    tellPeople("warning: " + node + " advertises " + topic +
+               ": a pose from it would spoil the problem in flight");
   }
   return has_begun_;
 }

@@ -51,6 +51,14 @@ using PublishersByTopic = std::multimap<std::string, std::string>;
 /// @throws Error  if the master does not answer.
 PublishersByTopic publishersByTopic();
 
+/// Subscribers of each topic, in the same way.
+std::multimap<std::string, std::string> subscribersByTopic();
+
+/// Type of each topic that somebody has told the master, be it a subscriber; `*` where those that
+/// are there take any.
+/// @throws Error  if the master does not answer.
+std::map<std::string, std::string> topicTypes();
+
 /// Nodes that subscribe to a topic of the name, without its namespace, in another namespace than
 /// this node's, `NODE subscribes to TOPIC`; observers excepted.
 /// @throws Error  if the master does not answer.

@@ -9,6 +9,7 @@
 #include "pcrb_core/run/scoring.hpp"
 #include "pcrb_server/topics.hpp"
 #include "ros/node_calls.hpp"
+#include "ros/notices.hpp"
 #include "server/run_console.hpp"
 
 namespace pcrb {
@@ -99,7 +100,7 @@ void BenchmarkServer::offerControls() {
 bool BenchmarkServer::run() {
   std::cout << describe(parameters_) << std::endl;
   RunProgress progress(done_, plan_.problems.size());
-  if (is_paused_) std::cout << describeWaitForStart() << std::endl;
+  if (is_paused_) tellPeople(describeWaitForStart());
   waitForStart();  // also if nothing remains: who starts it wants to read the summary
   const bool has_handshake = parameters_.configuration.handshake == Handshake::kReady;
   if (remaining_.empty() && has_handshake) clients_.checkThoseOfFinishedRun();

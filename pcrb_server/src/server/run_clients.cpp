@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 #include <locale>
 #include <sstream>
 #include <thread>
@@ -16,6 +15,7 @@
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
 #include "pcrb_server/topics.hpp"
+#include "ros/notices.hpp"
 #include "ros/topic_peers.hpp"
 
 namespace pcrb {
@@ -97,6 +97,13 @@ std::string describeListeners(const std::set<std::string>& names) try {
   return joinNames(names) + "; " + error.what();
 }
 
+/// The bridge tells people itself what it waits for before it calls.
+bool isBridgeAmong(const std::set<std::string>& nodes) {
+  return std::any_of(nodes.begin(), nodes.end(), [](const std::string& node) {
+    return node.substr(node.rfind('/') + 1) == "localization_bridge";
+  });
+}
+
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -124,6 +131,7 @@ bool RunClients::waitForReady() {
   const bool is_first = session_.client().empty();
   const double limit = is_first ? parameters_.connect_limit : parameters_.ready_limit;
   const auto start = Clock::now();
+  Notice notice;
   while (true) {
     const double rest = limit - secondsSince(start);
     const auto wait =
@@ -131,9 +139,11 @@ bool RunClients::waitForReady() {
     if (wait == ProblemSession::Wait::kStopped) return false;
     if (wait != ProblemSession::Wait::kLimit) break;
     if (rest <= kReminderPeriod) giveUp(limit, is_first);
-    std::cout << "waiting for a client to call " << ros::names::resolve(services::kReady)
-              << " (subscribed: " << describeListeners(publications_.listeners()) << ")"
-              << std::endl;
+    const auto listeners = publications_.listeners();
+    const std::string text = "waiting for a client to call " +
+                             ros::names::resolve(services::kReady) +
+                             " (subscribed: " + describeListeners(listeners) + ")";
+    if (!isBridgeAmong(listeners)) notice.tell(text);
   }
   if (!session_.client().empty()) note({session_.client()});  // empty: it was skipped
   return true;

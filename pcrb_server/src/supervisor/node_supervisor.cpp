@@ -7,13 +7,13 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <iostream>
 #include <thread>
 #include <utility>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_server/node_parameters.hpp"
 #include "pcrb_server/topics.hpp"
+#include "ros/notices.hpp"
 
 namespace pcrb {
 
@@ -86,6 +86,7 @@ SupervisorParameters readSupervisorParameters() {
   const bool is_wanted_at_once = reader.boolean("autostart");
   parameters.autostart = !isStartedBy(reader.string("bridge")) && is_wanted_at_once;
   reader.allowOwnParameter("provenance");
+  reader.allowOwnParameter("launch_mistakes");
   reader.finish();
   return parameters;
 }
@@ -93,6 +94,7 @@ SupervisorParameters readSupervisorParameters() {
 void describeLaunch(const SupervisorParameters& parameters, const ShutdownRequest& shutdown) {
   const std::string note = ros::names::resolve("~provenance");
   ros::param::del(note);
+  ros::param::del(ros::names::resolve("~launch_mistakes"));
   const std::string script = ros::package::getPath("pcrb_server") + "/scripts/describe_launch.py";
   std::vector<std::string> command{PCRB_PYTHON, "-B", script, note};
   command.insert(command.end(), parameters.command.begin() + 2, parameters.command.end());
@@ -100,7 +102,12 @@ void describeLaunch(const SupervisorParameters& parameters, const ShutdownReques
   description.start();
   while (!shutdown.requested() && description.isRunning()) std::this_thread::sleep_for(kPollPeriod);
   if (shutdown.requested() || ros::param::has(note)) return;
-  throw Error("the node's launch file cannot be started as asked: the lines above say why");
+  std::vector<std::string> mistakes;
+  ros::param::get(ros::names::resolve("~launch_mistakes"), mistakes);
+  std::string message = "the node's launch file cannot be started as asked";
+  if (mistakes.empty()) message += ": the lines above say why";
+  for (const auto& mistake : mistakes) message += "\n  " + mistake;
+  throw Error(message);
 }
 
 NodeSupervisor::NodeSupervisor(const SupervisorParameters& parameters, ShutdownRequest& shutdown)
@@ -170,7 +177,7 @@ void NodeSupervisor::keepAlive() {
     throw Error("the node under test ended " + std::to_string(early_deaths_) +
                 " times as soon as it was started: see what it printed");
   }
-  if (!is_first) std::cout << "the node under test has ended: it is started anew" << std::endl;
+  if (!is_first) tellPeople("the node under test has ended: it is started anew");
   command_.stop();  // what it left behind
   start();
 }
@@ -186,8 +193,7 @@ void NodeSupervisor::run() {
       is_requested = is_requested_;
     }
     if (getppid() != parent_) {
-      std::cout << "the process that started node_supervisor has ended, and so does this"
-                << std::endl;
+      tellPeople("the process that started node_supervisor has ended, and so does this");
       break;
     }
     if (is_requested) {

@@ -10,13 +10,14 @@ TEST(AnswerDiagnosis, ConstantLatenessSuggestsAnAnswerDelay) {
   for (const double lateness : {0.2, 0.201, 0.199}) faults.noteStamp(lateness);
   EXPECT_EQ(faults.cause().code, "stamp");
   EXPECT_EQ(faults.cause().text,
-            "3 poses with the stamp of no scan, 0.200 s later: set ~answer_delay:=0.200");
+            "3 poses with the stamp of no scan, 0.200 s later: set `answer_delay: 0.200` in "
+            "bridge_parameters");
 }
 
 TEST(AnswerDiagnosis, VaryingLatenessSuggestsToMatchByArrival) {
   AnswerDiagnosis faults;
   for (const double lateness : {0.01, 0.05, 0.09}) faults.noteStamp(lateness);
-  EXPECT_NE(faults.cause().text.find("0.050 s later in the median: set ~match:=arrival"),
+  EXPECT_NE(faults.cause().text.find("0.050 s later in the median: set `match: arrival` in"),
             std::string::npos)
       << faults.cause().text;
 }
@@ -41,6 +42,16 @@ TEST(Silence, NamesTheTopicsOnWhichPosesAre) {
   EXPECT_EQ(cause.text,
             "the node said nothing to 9 scans: no node publishes /pose; poses are published on "
             "/ndt_pose (geometry_msgs/PoseStamped by /ndt), /odom (nav_msgs/Odometry by /ekf)");
+}
+
+TEST(AnswerTopic, IsSaidToBeWrongBeforeTheFirstScanWithWhatToType) {
+  const std::vector<PoseTopic> others{{"/ndt_pose", "geometry_msgs/PoseStamped", "/ndt"}};
+  EXPECT_EQ(describeSilence("/pose", others),
+            "no node publishes /pose (pose_topic) so far; poses are published on /ndt_pose "
+            "(geometry_msgs/PoseStamped by /ndt): set pose_topic:=/ndt_pose, or pose_topic:=tf if "
+            "it answers on tf");
+  EXPECT_EQ(describeSilence("/pose", {}), "no node publishes /pose (pose_topic) so far");
+  EXPECT_EQ(describeWrongType("/tf", "tf2_msgs/TFMessage", {}).find("/tf (pose_topic): found"), 0U);
 }
 
 TEST(Silence, ANodeThatUsesAProcessorIsBusyAndOneThatDoesNotIsSilent) {

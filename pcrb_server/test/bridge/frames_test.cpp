@@ -65,12 +65,15 @@ TEST(StampClock, OtherStampsAreTheTimesOfSending) {
 TEST(AdviceOn, TellsALocalizerOfTheSensorFromOneThatMountsIt) {
   const OwnedFrame sensor{"tf_base_scan", "base_link", true};
   EXPECT_EQ(adviceOn(sensor, "velodyne", "map"),
-            "if it localizes the sensor itself, set ~base_frame:=velodyne and ~tf_odom_base:=none");
+            "if it localizes the sensor itself, set base_frame:=velodyne and "
+            "`tf_odom_base: none` in bridge_parameters");
   EXPECT_EQ(adviceOn(sensor, "velodyne", "base_link"),
-            "or set ~tf_base_scan:=none if the localizer publishes velodyne itself");
+            "or set `tf_base_scan: none` in bridge_parameters if the localizer publishes velodyne "
+            "itself");
   const OwnedFrame body{"tf_odom_base", "odom", false};
   EXPECT_EQ(adviceOn(body, "base_link", "map"),
-            "or set ~tf_odom_base:=none if the localizer publishes base_link itself");
+            "or set `tf_odom_base: none` in bridge_parameters if the localizer publishes base_link "
+            "itself");
 }
 
 }  // namespace

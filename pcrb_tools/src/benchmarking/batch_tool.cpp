@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <set>
 #include <thread>
@@ -47,6 +48,7 @@ class Batch {
   void startSome();
   void reap();
   void endLeftNodes();
+  void tellNews();
   void showProgress();
   void stop();
   bool waitForAll(std::chrono::seconds limit);
@@ -56,6 +58,7 @@ class Batch {
   std::deque<Shard*> waiting_;
   std::vector<Shard*> running_;
   std::vector<std::string> defects_;
+  std::map<std::string, const Shard*> told_;  ///< texts, and which shard has told each first
   std::string subject_;
   Clock::time_point start_ = Clock::now();
   Progress progress_;
@@ -104,6 +107,7 @@ void Batch::run() {
     startSome();
     std::this_thread::sleep_for(kPoll);
     reap();
+    tellNews();
     showProgress();
   }
   progress_.rename(subject_);
@@ -148,6 +152,15 @@ void Batch::reap() {
   endLeftNodes();
   const auto has_ended = [](Shard* shard) { return !shard->isRunning(); };
   running_.erase(std::remove_if(running_.begin(), running_.end(), has_ended), running_.end());
+}
+
+/// Shards tell much the same: what one has told is not told by another one.
+void Batch::tellNews() {
+  for (const auto& shard : shards_) {
+    for (const std::string& text : shard->news()) {
+      if (told_.emplace(text, shard.get()).first->second == shard.get()) progress_.note(text);
+    }
+  }
 }
 
 void Batch::showProgress() {

@@ -22,6 +22,8 @@ constexpr std::array<const char*, 6> kErrorPrefixes{
     "benchmark_server: ",  "localization_bridge: ", "node_supervisor: ",
     "registration_node: ", "cannot start",          "RLException"};
 
+constexpr const char* kNoClient = "benchmark_server: no client called";
+
 /// Whether roslaunch can write where it keeps files of its own: with HOME unset or read-only it
 /// cannot, and would end without a word.
 bool isRosHomeWritable() {
@@ -86,6 +88,7 @@ bool Shard::tryStart() {
   }
   start.log = logFile();
   log_start_ = fs::exists(start.log) ? static_cast<std::streamoff>(fs::file_size(start.log)) : 0;
+  notices_.emplace(start.log, log_start_);
   start.inherited_descriptor = lock_->descriptor();
   process_ = std::make_unique<ChildProcess>(start);
   return true;
@@ -143,6 +146,10 @@ std::string Shard::sequence() {
   return store_ ? store_->newestSequence() : "";
 }
 
+std::vector<std::string> Shard::news() {
+  return notices_ ? notices_->next(done() == 0) : std::vector<std::string>();
+}
+
 bool Shard::isComplete() { return total() > 0 && done() >= total(); }
 
 std::string Shard::defect() {
@@ -169,6 +176,10 @@ std::string Shard::lastError() const {
     goes_on = is_error || (goes_on && begins("  "));
     if (is_error) error = line;
     if (goes_on && !is_error) error += ";" + line.substr(1);
+  }
+  if (error.rfind(kNoClient, 0) == 0 && notices_) {
+    const std::string wait = notices_->last("localization_bridge");
+    if (!wait.empty()) error += "; localization_bridge: " + wait;
   }
   return error.empty() ? "; see " + logFile() : "; " + error + " (" + logFile() + ")";
 }

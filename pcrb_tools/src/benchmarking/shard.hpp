@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmarking/child_process.hpp"
+#include "benchmarking/log_notices.hpp"
 #include "common/process.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/run/results_store.hpp"
@@ -57,6 +58,9 @@ class Shard {
   /// Sequence of its newest result; empty where there is none.
   std::string sequence();
 
+  /// What its log has told people since the call before: a text each, which may have several lines.
+  std::vector<std::string> news();
+
   /// What is wrong with the shard as it is now, or nothing: problems without a result, a node that
   /// never answered.
   std::string defect();
@@ -81,7 +85,8 @@ class Shard {
   std::unique_ptr<ChildProcess> process_;
   std::unique_ptr<pcrb::ResultsStore> store_;  ///< for reading; none as long as it is not there
   std::size_t total_ = 0;
-  std::streamoff log_start_ = 0;  ///< where the log of the newest start begins
+  std::optional<LogNotices> notices_;  ///< of the log of the newest start
+  std::streamoff log_start_ = 0;       ///< where the log of the newest start begins
 };
 
 }  // namespace pcrb_tools
