@@ -34,6 +34,16 @@ Transform uprightFromOptical(const std::optional<Transform>& T_map_optical) {
   return T_upright_optical;
 }
 
+std::string warningOfTilt(const Transform& T_map_base) {
+  constexpr double kMostOfProblems = 30.0;  // deg, by which local problems turn a sensor
+  constexpr double kDegree = 0.017453292519943295;
+  const double tilt = std::acos(std::clamp(T_map_base.linear()(2, 2), -1.0, 1.0)) / kDegree;
+  if (tilt <= kMostOfProblems + 1.0) return "";
+  return "warning: the IMU (imu_topic) says that the robot is level, which it is not: an initial "
+         "pose tilts it by more than the 30 degrees of local problems; leave imu_topic out if the "
+         "node can do without";
+}
+
 std::array<TfLinks::Link, 3> TfLinks::all() const {
   const auto& p = parameters_;
   return {{{p.tf_map_odom, "tf_map_odom", p.map_frame, p.odom_frame},

@@ -51,6 +51,10 @@ struct OwnedFrame {
   bool is_scan = false;
 };
 
+/// That the IMU's gravity, which is that of a level robot, is not the one that this initial pose of
+/// a local problem allows; empty if it may be.
+std::string warningOfTilt(const Transform& T_map_base);
+
 /// What to do about another node that publishes such a frame: it localizes the sensor itself, or
 /// publishes the link as it should, or should not be there.
 std::string adviceOn(const OwnedFrame& owned, const std::string& frame, const std::string& parent);

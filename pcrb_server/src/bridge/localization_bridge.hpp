@@ -118,6 +118,7 @@ class LocalizationBridge {
   bool was_answered_ = false;   ///< whether a problem had an answer
   Notice untaken_;              ///< inputs that no node takes
   Notice silent_;               ///< the topic of answers, on which no node publishes
+  Notice tilted_;               ///< the IMU, which says level
   FailureLog failures_;
   MisalignmentCheck misalignment_;
 };

@@ -178,6 +178,8 @@ void LocalizationBridge::sendInitialPose() {
     monitor_.extendWatch();
   }
   pause(inputs_.timeToStop());
+  const bool is_local = served_->message->kind == pcrb_msgs::Problem::LOCAL;
+  if (is_local && !parameters_.imu_topic.empty()) tilted_.tell(warningOfTilt(*pose));
   inputs_.sendInitialPose(*pose);
   pause(parameters_.initialpose_settle);
 }

@@ -62,6 +62,17 @@ TEST(StampClock, OtherStampsAreTheTimesOfSending) {
   EXPECT_EQ(clock.next(4000, 100), 5001);
 }
 
+TEST(WarningOfTilt, IsForInitialPosesThatNoLocalProblemOfALevelSensorHas) {
+  const auto tilted = [](double angle) {
+    return Transform(Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(angle, Eigen::Vector3d(0.6, 0.8, 0.0)));
+  };
+  EXPECT_EQ(warningOfTilt(Transform::Identity()), "");
+  EXPECT_EQ(warningOfTilt(tilted(0.52)), "");
+  EXPECT_NE(warningOfTilt(tilted(0.6)), "");
+  EXPECT_NE(warningOfTilt(tilted(3.1)), "");
+}
+
 TEST(AdviceOn, TellsALocalizerOfTheSensorFromOneThatMountsIt) {
   const OwnedFrame sensor{"tf_base_scan", "base_link", true};
   EXPECT_EQ(adviceOn(sensor, "velodyne", "map"),
