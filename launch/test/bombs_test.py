@@ -112,6 +112,14 @@ class BombsTest(TestCase):
         self.explode('PCD of 12 GB of holes', r'found 12000 MB, expected at most', 'build_map', self.folder, '-o',
                      self.path('map.pcd'), '--leaf', '0.1')
 
+    def test_many_threads_have_one_budget(self):
+        """What waits for its share has not been read, but for one file; holes take no disk, so each file is as large as may be."""
+        for i in range(8):
+            pcd(os.path.join(self.folder, f'{i}.pcd'), 20000000, 'binary', b'')
+            os.truncate(os.path.join(self.folder, f'{i}.pcd'), 240000000 + os.path.getsize(os.path.join(self.folder, f'{i}.pcd')))
+        self.explode('8 PCDs of 240 MB, 8 threads', 'takes .* MB of memory, expected', 'build_map', self.folder, '-o',
+                     self.path('map.pcd'), '--leaf', '1', '--threads', '8')
+
     def test_archives(self):
         archive = os.path.join(self.folder, 'yard.tgz')
         with tarfile.open(archive, 'w:gz') as tgz:

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <mutex>
 #include <string_view>
 #include <system_error>
 
@@ -46,21 +47,22 @@ std::string formatHeader(const DatasetCloud& cloud) {
 
 }  // namespace
 
-MemoryBudget::Share takeMemory(const LineReader& lines, std::size_t needed, MemoryBudget& budget) {
+MemoryBudget::Share takeMemory(const LineReader& lines, std::size_t needed,
+                               const PcdReading& options) {
   constexpr std::size_t kMegabyte = 1000000;
-  if (needed <= budget.limit()) return budget.take(needed);
+  MemoryBudget& budget = *options.budget;
+  if (needed <= budget.limit()) {
+    auto share = budget.take(needed);
+    if (options.turn != nullptr) options.turn->unlock();
+    return share;
+  }
   lines.fail("a cloud that takes " + std::to_string(needed / kMegabyte + 1) + " MB of memory",
              "at most " + std::to_string(budget.limit() / kMegabyte) + " MB (--memory)");
 }
 
-DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options) {
-  const FileBytes file(path);
-  return parsePcd(file.begin(), file.end(), path, options);
-}
-
 namespace {
 
-TimedCloud readAll(std::string_view text, const std::string& name, const PcdReadOptions& options,
+TimedCloud readAll(std::string_view text, const std::string& name, const PcdReading& options,
                    bool with_times) {
   if (options.threads < 1) {
     throw InvalidParameter("threads: found " + std::to_string(options.threads) +
@@ -77,10 +79,10 @@ TimedCloud readAll(std::string_view text, const std::string& name, const PcdRead
       readPcdAscii(header, lines, options, cloud);
       break;
     case PcdData::kBinary:
-      readPcdBinary(header, lines, *options.budget, cloud);
+      readPcdBinary(header, lines, options, cloud);
       break;
     case PcdData::kBinaryCompressed:
-      readPcdCompressed(header, lines, *options.budget, cloud);
+      readPcdCompressed(header, lines, options, cloud);
       break;
   }
   return cloud;
@@ -88,14 +90,21 @@ TimedCloud readAll(std::string_view text, const std::string& name, const PcdRead
 
 }  // namespace
 
+DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options) {
+  static std::mutex one_at_a_time;
+  std::unique_lock<std::mutex> turn(one_at_a_time);
+  const FileBytes file(path);
+  return readAll({file.begin(), file.size()}, path, {options, &turn}, false);
+}
+
 DatasetCloud parsePcd(const char* begin, const char* end, const std::string& name,
                       const PcdReadOptions& options) {
-  return readAll({begin, static_cast<std::size_t>(end - begin)}, name, options, false);
+  return readAll({begin, static_cast<std::size_t>(end - begin)}, name, {options}, false);
 }
 
 TimedCloud parseTimedPcd(const char* begin, const char* end, const std::string& name,
                          const PcdReadOptions& options) {
-  return readAll({begin, static_cast<std::size_t>(end - begin)}, name, options, true);
+  return readAll({begin, static_cast<std::size_t>(end - begin)}, name, {options}, true);
 }
 
 double pointTimeScale(std::string_view field, bool is_float) {

@@ -64,7 +64,7 @@ struct Part {
 /// On cache lines of its own: all threads read it, and one of them keeps its part beside it.
 class alignas(kCacheLine) AsciiReader {
  public:
-  AsciiReader(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget)
+  AsciiReader(const PcdHeader& header, const LineReader& lines, const PcdReading& options)
       : lines_(lines), points_(header.points) {
     for (const PcdField& field : header.fields) {
       columns_.push_back({field});
@@ -73,7 +73,7 @@ class alignas(kCacheLine) AsciiReader {
     }
     has_intensity_ = header.has(PcdUse::kIntensity);
     const std::size_t bytes = lines.rest().size();
-    share_ = takeMemory(lines, bytes + pointBytes(header, mostRows(bytes)), budget);
+    share_ = takeMemory(lines, bytes + pointBytes(header, mostRows(bytes)), options);
   }
 
   void read(int threads, TimedCloud& cloud) const {
@@ -249,9 +249,9 @@ class alignas(kCacheLine) AsciiReader {
 
 }  // namespace
 
-void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReadOptions& options,
+void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReading& options,
                   TimedCloud& cloud) {
-  AsciiReader(header, lines, *options.budget).read(options.threads, cloud);
+  AsciiReader(header, lines, options).read(options.threads, cloud);
 }
 
 }  // namespace pcrb

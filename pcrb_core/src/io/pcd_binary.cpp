@@ -136,7 +136,7 @@ bool decodeLzf(std::string_view data, char* values, std::size_t size) {
 
 }  // namespace
 
-void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
+void readPcdBinary(const PcdHeader& header, const LineReader& lines, const PcdReading& options,
                    TimedCloud& cloud) {
   const std::string_view data = lines.rest();
   const std::size_t row_bytes = rowBytes(header, true);
@@ -144,7 +144,7 @@ void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudge
       !isFill(data.substr(header.points * row_bytes))) {
     lines.fail(std::to_string(data.size()) + " bytes of data", describe(header, row_bytes));
   }
-  const auto share = takeMemory(lines, data.size() + pointBytes(header, header.points), budget);
+  const auto share = takeMemory(lines, data.size() + pointBytes(header, header.points), options);
   std::vector<BinaryColumn> columns;
   const char* first = data.data();
   for (const PcdField& field : header.fields) {
@@ -154,7 +154,7 @@ void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudge
   collect(header, columns, cloud);
 }
 
-void readPcdCompressed(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
+void readPcdCompressed(const PcdHeader& header, const LineReader& lines, const PcdReading& options,
                        TimedCloud& cloud) {
   std::string_view data = lines.rest();
   std::uint32_t sizes[2];
@@ -177,7 +177,7 @@ void readPcdCompressed(const PcdHeader& header, const LineReader& lines, MemoryB
   // More points than bytes are a lie, which is said below.
   const std::size_t points = std::min(header.points, uncompressed);
   const auto share =
-      takeMemory(lines, data.size() + uncompressed + pointBytes(header, points), budget);
+      takeMemory(lines, data.size() + uncompressed + pointBytes(header, points), options);
   const std::unique_ptr<char[]> values(new char[uncompressed]);
   if (!decodeLzf(data.substr(0, compressed), values.get(), uncompressed)) {
     lines.fail("broken LZF data", std::to_string(uncompressed) + " bytes after decoding");

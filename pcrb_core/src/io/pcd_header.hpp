@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -55,15 +56,22 @@ struct PcdHeader {
 /// @throws InvalidFile  with the line, what was found and what was expected.
 PcdHeader readPcdHeader(LineReader& lines, bool with_times);
 
+/// How a PCD file is read.
+struct PcdReading : PcdReadOptions {
+  /// Held by who reads a file before it knows its share of the budget: one at a time has bytes that
+  /// no share is for, and unlocks when it has one.
+  std::unique_lock<std::mutex>* turn = nullptr;
+};
+
 // Readers of what follows a PCD header. `lines` stands behind the DATA entry; they fill points,
 // intensity, times, dropped_non_finite and notes, and throw InvalidFile, also where file and
 // cloud need more than the budget.
 
-void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReadOptions& options,
+void readPcdAscii(const PcdHeader& header, const LineReader& lines, const PcdReading& options,
                   TimedCloud& cloud);
-void readPcdBinary(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
+void readPcdBinary(const PcdHeader& header, const LineReader& lines, const PcdReading& options,
                    TimedCloud& cloud);
-void readPcdCompressed(const PcdHeader& header, const LineReader& lines, MemoryBudget& budget,
+void readPcdCompressed(const PcdHeader& header, const LineReader& lines, const PcdReading& options,
                        TimedCloud& cloud);
 
 /// Bytes of so many points in a DatasetCloud.
@@ -72,8 +80,9 @@ inline std::size_t pointBytes(const PcdHeader& header, std::size_t points) {
                    (header.has(PcdUse::kTime) ? sizeof(double) : 0));
 }
 
-/// Waits for a share of the budget.
+/// Waits for a share of the budget, and ends the turn.
 /// @throws InvalidFile  if more bytes are needed than there are in all.
-MemoryBudget::Share takeMemory(const LineReader& lines, std::size_t needed, MemoryBudget& budget);
+MemoryBudget::Share takeMemory(const LineReader& lines, std::size_t needed,
+                               const PcdReading& options);
 
 }  // namespace pcrb
