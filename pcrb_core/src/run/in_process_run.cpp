@@ -7,6 +7,7 @@
 #include "pcrb_core/run/problem_poser.hpp"
 #include "pcrb_core/run/run_plan.hpp"
 #include "pcrb_core/run/run_record.hpp"
+#include "pcrb_core/run/summary.hpp"
 
 namespace pcrb {
 
@@ -125,7 +126,7 @@ Result InProcessRun::submit(const Submission& submission, double runtime) {
 
 std::string InProcessRun::finish() {
   if (!impl_->record) return "";
-  const std::string summary = formatSummary(impl_->record->summary());
+  const std::string summary = formatSummary(summarize(impl_->record->results()));
   impl_->record->writeExports(summary);
   return summary;
 }

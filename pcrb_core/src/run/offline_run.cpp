@@ -5,6 +5,7 @@
 #include "pcrb_core/run/problem_poser.hpp"
 #include "pcrb_core/run/run_plan.hpp"
 #include "pcrb_core/run/run_record.hpp"
+#include "pcrb_core/run/summary.hpp"
 
 namespace pcrb {
 
@@ -96,7 +97,7 @@ std::string OfflineRun::score(const std::map<std::string, OfflineReply>& replies
     if (finished.count(planned.key) == 0) impl_->record.add(impl_->resultOf(planned, replies));
     on_row();
   }
-  const std::string summary = formatSummary(impl_->record.summary());
+  const std::string summary = formatSummary(summarize(impl_->record.results()));
   impl_->record.writeExports(summary);
   return summary;
 }

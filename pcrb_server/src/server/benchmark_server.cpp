@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "pcrb_core/run/scoring.hpp"
+#include "pcrb_core/run/summary.hpp"
 #include "pcrb_server/topics.hpp"
 #include "ros/node_calls.hpp"
 #include "ros/notices.hpp"
@@ -165,9 +166,10 @@ void BenchmarkServer::waitForReaders(bool had_readers, int departures) {
 bool BenchmarkServer::conclude() {
   session_.endRun();
   record_.noteForeignReplies(session_.foreignReplies());
-  const auto summaries = record_.summary();
+  const auto results = record_.results();
+  const auto summaries = summarize(results);
   const bool is_finished = done_ == plan_.problems.size();
-  const std::string table = formatSummary(summaries) + record_.remarks();
+  const std::string table = formatSummary(summaries) + describeScans(results);
   if (is_finished) record_.writeExports(table);
   const std::size_t skipped =
       parameters_.allow_skipped

@@ -11,7 +11,6 @@
 #include "pcrb_core/run/results_store.hpp"
 #include "pcrb_core/run/run_info.hpp"
 #include "pcrb_core/run/run_plan.hpp"
-#include "pcrb_core/run/summary.hpp"
 
 namespace pcrb {
 
@@ -66,11 +65,8 @@ class RunRecord {
   /// Commits a result: it is on the disk when this returns.
   void add(const Result& result) { store_.add(result); }
 
-  /// Statistics of all results so far.
-  std::vector<SequenceSummary> summary() const { return summarize(store_.results()); }
-
-  /// What is to be said of them below their table.
-  std::string remarks() const { return describeScans(store_.results()); }
+  /// All results so far, read from the store.
+  std::vector<Result> results() const { return store_.results(); }
 
   /// Writes results.csv and summary.txt.
   void writeExports(const std::string& summary_text);
