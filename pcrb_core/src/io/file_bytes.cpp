@@ -72,8 +72,8 @@ namespace {
 void requireWithinBudget(const std::string& path, std::size_t size) {
   const std::size_t limit = MemoryBudget::ofProcess().limit();
   if (size <= limit) return;
-  throw InvalidFile(path, 0, std::to_string(size / 1000000) + " MB",
-                    "at most " + std::to_string(limit / 1000000) + " MB (--memory)");
+  const auto [found, expected] = describeExcess("a file", size, limit);
+  throw InvalidFile(path, 0, found, expected);
 }
 
 }  // namespace

@@ -56,11 +56,9 @@ void MemoryBudget::setLimit(std::size_t bytes) {
 }
 
 void MemoryBudget::requirePossible(std::size_t bytes) const {
-  constexpr std::size_t kMegabyte = 1000000;
   if (bytes <= limit_) return;
-  throw InvalidParameter("found something that takes " + std::to_string(bytes / kMegabyte + 1) +
-                         " MB of memory, expected at most " + std::to_string(limit_ / kMegabyte) +
-                         " MB (a tool's --memory)");
+  const auto [found, expected] = describeExcess("something", bytes, limit_);
+  throw InvalidParameter("found " + found + ", expected " + expected);
 }
 
 MemoryBudget::Share MemoryBudget::take(std::size_t bytes) {
@@ -78,6 +76,12 @@ std::optional<MemoryBudget::Share> MemoryBudget::tryTake(std::size_t bytes) {
   if (taken_ > limit_ - bytes) return std::nullopt;
   taken_ += bytes;
   return Share(*this, bytes);
+}
+
+MemoryExcess describeExcess(const std::string& what, std::size_t needed, std::size_t limit) {
+  constexpr std::size_t kMegabyte = 1000000;
+  return {what + " that takes " + std::to_string(needed / kMegabyte + 1) + " MB of memory",
+          "at most " + std::to_string(limit / kMegabyte) + " MB (--memory)"};
 }
 
 }  // namespace pcrb

@@ -49,15 +49,14 @@ std::string formatHeader(const DatasetCloud& cloud) {
 
 MemoryBudget::Share takeMemory(const LineReader& lines, std::size_t needed,
                                const PcdReading& options) {
-  constexpr std::size_t kMegabyte = 1000000;
   MemoryBudget& budget = *options.budget;
   if (needed <= budget.limit()) {
     auto share = budget.take(needed);
     if (options.turn != nullptr) options.turn->unlock();
     return share;
   }
-  lines.fail("a cloud that takes " + std::to_string(needed / kMegabyte + 1) + " MB of memory",
-             "at most " + std::to_string(budget.limit() / kMegabyte) + " MB (--memory)");
+  const auto [found, expected] = describeExcess("a cloud", needed, budget.limit());
+  lines.fail(found, expected);
 }
 
 namespace {

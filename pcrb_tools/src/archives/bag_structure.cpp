@@ -13,12 +13,6 @@
 namespace pcrb_tools {
 namespace {
 
-constexpr std::uint64_t kMegabyte = 1000000;
-
-std::string inMegabytes(std::uint64_t bytes) {
-  return std::to_string(bytes / kMegabyte) + " MB of memory";
-}
-
 /// Where the index begins.
 /// @throws InvalidFile  if there is none, or the bag is encrypted.
 std::uint64_t indexPosition(const std::string& path, BagRecords& records) {
@@ -57,6 +51,8 @@ class BagCheck {
   void checkConnection(const BagRecord& connection);
   void checkChunk(const BagRecord& info);
   std::uint64_t memoryFor(const BagRecord& chunk) const;
+  [[noreturn]] void refuseExcess(const BagRecord& record, const std::string& what,
+                                 std::uint64_t needed, std::uint64_t limit) const;
   void countMessages(std::uint32_t messages, const BagRecord& index);
   void checkIndexes(const BagRecord& chunk, std::uint32_t indexes, Messages messages);
   void checkIndex(const BagRecord& index, Messages messages);
@@ -138,10 +134,15 @@ std::uint64_t BagCheck::memoryFor(const BagRecord& chunk) const {
   const std::uint64_t needed = chunk.size + 2 * unpacked;
   const std::uint64_t limit = pcrb::MemoryBudget::ofProcess().limit();
   if (needed > limit || std::max<std::uint64_t>(chunk.size, unpacked) >= kLargestChunk) {
-    records_.refuse(chunk.position, "a chunk that takes " + inMegabytes(needed + kMegabyte),
-                    "at most " + inMegabytes(std::min(limit, 2 * kLargestChunk)) + " (--memory)");
+    refuseExcess(chunk, "a chunk", needed, std::min(limit, 2 * kLargestChunk));
   }
   return needed;
+}
+
+void BagCheck::refuseExcess(const BagRecord& record, const std::string& what, std::uint64_t needed,
+                            std::uint64_t limit) const {
+  const auto [found, expected] = pcrb::describeExcess(what, needed, limit);
+  records_.refuse(record.position, found, expected);
 }
 
 /// rosbag holds the index as a tree.
@@ -149,9 +150,7 @@ void BagCheck::countMessages(std::uint32_t messages, const BagRecord& index) {
   constexpr std::uint64_t kNode = 64;  // bytes of a message's time and place
   messages_ += messages;
   const std::uint64_t limit = pcrb::MemoryBudget::ofProcess().limit();
-  if (messages_ <= limit / kNode) return;
-  records_.refuse(index.position, "an index of more than " + inMegabytes(limit),
-                  "it below (--memory)");
+  if (messages_ > limit / kNode) refuseExcess(index, "an index", messages_ * kNode, limit);
 }
 
 void BagCheck::checkIndex(const BagRecord& index, Messages messages) {

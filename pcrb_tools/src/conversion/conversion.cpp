@@ -20,13 +20,11 @@ constexpr const char* kConverterVersion = "2";
 /// Waits for the memory that a scan's bytes, points and written cloud take together.
 pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t bytes) {
   constexpr std::size_t kExpansion = 6;  // of a binary scan, which expands most
-  constexpr std::size_t kMegabyte = 1000000;
   pcrb::MemoryBudget& budget = pcrb::MemoryBudget::ofProcess();
   const std::size_t needed = kExpansion * bytes;
   if (needed <= budget.limit()) return budget.take(needed);
-  throw pcrb::InvalidFile(
-      path, 0, "a scan that takes " + std::to_string(needed / kMegabyte + 1) + " MB of memory",
-      "at most " + std::to_string(budget.limit() / kMegabyte) + " MB (--memory)");
+  const auto [found, expected] = pcrb::describeExcess("a scan", needed, budget.limit());
+  throw pcrb::InvalidFile(path, 0, found, expected);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <string>
 
 namespace pcrb {
 
@@ -60,5 +61,15 @@ class MemoryBudget {
   std::size_t limit_;
   std::size_t taken_ = 0;
 };
+
+/// What to say of something that needs more memory than it may have.
+struct MemoryExcess {
+  std::string found;     ///< `a scan that takes 3001 MB of memory`
+  std::string expected;  ///< `at most 1000 MB (--memory)`
+};
+
+/// @param what    e.g. `a scan`
+/// @param needed  bytes, and those of the limit.
+MemoryExcess describeExcess(const std::string& what, std::size_t needed, std::size_t limit);
 
 }  // namespace pcrb
