@@ -212,7 +212,7 @@ const char* toString(PoseFormat format) {
   return kNames[static_cast<std::size_t>(format)];
 }
 
-std::size_t PoseFile::repeated() const {
+std::size_t PoseFile::duplicates() const {
   std::set<std::tuple<Stamp, std::size_t, std::string>> keys;
   for (const FilePose& pose : poses) keys.emplace(pose.stamp, pose.index, pose.name);
   return poses.size() - keys.size();

@@ -159,9 +159,9 @@ TEST(PoseFile, CountsThePosesThatALaterOneReplacesInEveryFormat) {
         std::string("1403636579763555584,1,2,3,1,0,0,0\n1403636579763555584,1,2,4,1,0,0,0\n"),
         "3 3 9\n" + block + "3 3 9\n" + block,
         std::string("file,x,y,z,roll,pitch,yaw\na,1,2,3,0,0,0\na,1,2,4,0,0,0\n")}) {
-    EXPECT_EQ(parse(text).repeated(), 1u) << text;
+    EXPECT_EQ(parse(text).duplicates(), 1u) << text;
   }
-  EXPECT_EQ(parse(kMatrix + "\n" + kMatrix + "\n").repeated(), 0u);
+  EXPECT_EQ(parse(kMatrix + "\n" + kMatrix + "\n").duplicates(), 0u);
 }
 
 TEST(PoseFile, TimestampsMayBeScientific) {

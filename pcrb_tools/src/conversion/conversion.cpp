@@ -32,7 +32,7 @@ pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t 
 void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion,
                    const std::vector<std::string>& notes) {
   conversion.setPoseStamps(trajectory.stamps());
-  conversion.noteRepeatedPoses(trajectory.duplicates());
+  conversion.noteDuplicatePoses(trajectory.duplicates());
   for (const std::string& note : notes) conversion.note(note);
 }
 
@@ -181,7 +181,7 @@ void Conversion::noteTimeJump() {
   went_back_ = true;
 }
 
-void Conversion::noteRepeatedPoses(std::size_t count) {
+void Conversion::noteDuplicatePoses(std::size_t count) {
   if (count == 0) return;
   note(std::to_string(count) +
        " poses have the stamp of a later one, or its scan, and were not used");

@@ -75,7 +75,7 @@ class Conversion {
   void note(const std::string& text) { report_.notes.push_back(text); }
 
   /// Notes, unless there is none, how many poses were left out, as a later one has their stamp.
-  void noteRepeatedPoses(std::size_t count);
+  void noteDuplicatePoses(std::size_t count);
 
   /// Notes, once, that the stamps of a stream jumped back.
   void noteTimeJump();

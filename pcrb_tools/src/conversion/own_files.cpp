@@ -128,7 +128,7 @@ class OwnFiles {
     const std::vector<pcrb::Stamp> stamps = stampsOfClouds();
     ScanThinner thinner(request_, conversion);
     conversion.setPoseStamps(placement_.stamps);
-    conversion.noteRepeatedPoses(placement_.repeated);
+    conversion.noteDuplicatePoses(placement_.duplicates);
     std::vector<FileScan> work;
     for (std::size_t i = 0; i != clouds_.size(); ++i) {
       ScanPlace place;
@@ -187,7 +187,7 @@ class OwnFiles {
   std::vector<FileScan> planByKey(const pcrb::PoseFile& poses, Conversion& conversion) const {
     const std::vector<const pcrb::FilePose*> found =
         poses.key == pcrb::PoseKey::kName ? findByName(poses) : findByIndex(poses);
-    conversion.noteRepeatedPoses(poses.repeated());
+    conversion.noteDuplicatePoses(poses.duplicates());
     ScanThinner thinner(request_, conversion);
     std::vector<FileScan> work;
     for (std::size_t i = 0; i != clouds_.size(); ++i) {

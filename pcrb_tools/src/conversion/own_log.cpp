@@ -104,7 +104,7 @@ OwnScans::OwnScans(const OwnRequest& request, const Placement& placement,
       conversion_(conversion),
       thinner_(request, conversion) {
   conversion.setPoseStamps(placement.stamps);
-  conversion.noteRepeatedPoses(placement.repeated);
+  conversion.noteDuplicatePoses(placement.duplicates);
 }
 
 void OwnScans::add(Scan scan) {

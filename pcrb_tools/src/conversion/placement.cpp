@@ -63,7 +63,7 @@ Placement placementBy(const pcrb::Trajectory& trajectory, const OwnRequest& requ
   Placement placement = placementBy(
       [poses, gap = request.max_gap](pcrb::Stamp stamp) { return poses->interpolate(stamp, gap); },
       trajectory.stamps(), request);
-  placement.repeated = trajectory.duplicates();
+  placement.duplicates = trajectory.duplicates();
   if (request.deskew) placement.identity += identityOfPoses(trajectory);
   return placement;
 }

@@ -25,7 +25,7 @@ struct Placement {
   bool in_world = false;            ///< the clouds are in the frame of the poses already
   pcrb::PoseAt world;               ///< T_wanted_world; empty = the same
   std::vector<pcrb::Stamp> stamps;  ///< of the poses, ascending, for messages
-  std::size_t repeated = 0;         ///< poses that were left out, as a later one has their stamp
+  std::size_t duplicates = 0;       ///< poses that were left out, as a later one has their stamp
 
   std::string identity;  ///< of all poses and the offset, for fingerprints
 

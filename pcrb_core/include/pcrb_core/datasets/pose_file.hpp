@@ -43,7 +43,7 @@ struct PoseFile {
   std::vector<std::string> notes;  ///< what was concluded, e.g. a unit from the timestamps' size
 
   /// Poses with the key of a later one, which counts.
-  std::size_t repeated() const;
+  std::size_t duplicates() const;
 
   /// In time.
   /// @throws InvalidFile  where they have no timestamps; `name` stands for the path.
