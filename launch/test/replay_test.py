@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What replay publishes of a sequence, of its problems and of a run: every cloud where it belongs."""
 import os
+import subprocess
 import sys
 
 import numpy as np
@@ -205,8 +206,7 @@ class ReplayTest(TestCase):
         self.assert_ends_well(server)
         return {row['problem_id']: row for row in rows(server.run)}
 
-    def assert_run_is_shown(self, presentation, **parameters):
-        results = self.run_of_guesses(presentation, **parameters)
+    def assert_run_is_shown(self, results):
         self.replay(run=self.path('run'), order='worst', keep_alive=True)
         for row in sorted(results.values(), key=lambda row: -row['error']):
             source, aligned, markers = self.step('source', 'source_aligned', 'markers')
@@ -219,13 +219,21 @@ class ReplayTest(TestCase):
                 maths.error(points, maths.rigid_fit(points, maths.points_of(aligned))), row['error'], delta=1e-4)
 
     def test_a_run_of_registration_is_shown_worst_first(self):
-        self.assert_run_is_shown('registration')
+        self.assert_run_is_shown(self.run_of_guesses('registration'))
 
     def test_a_run_of_localization_is_shown_in_the_maps_frame(self):
-        self.assert_run_is_shown('localization')
+        self.assert_run_is_shown(self.run_of_guesses('localization'))
 
     def test_an_audited_run_is_shown_as_one_without(self):
-        self.assert_run_is_shown('registration', audit=True)
+        self.assert_run_is_shown(self.run_of_guesses('registration', audit=True))
+
+    def test_merged_shards_are_shown_though_each_put_its_scans_elsewhere(self):
+        shards = [self.path(f'shard_{i}') for i in range(2)]
+        results = {}
+        for i, run in enumerate(shards):
+            results.update(self.run_of_guesses('localization', audit=True, run=run, shard=f'{i}/2'))
+        subprocess.run([executable('pcrb_tools', 'merge_runs'), *shards, '-o', self.path('run')], check=True)
+        self.assert_run_is_shown(results)
 
     def test_changed_data_are_no_run(self):
         self.run_of_guesses('registration')

@@ -106,9 +106,8 @@ void requireEveryShard(const std::vector<ShardRun>& parts) {
   if (!missing.empty()) throw StoreError("expected every shard, missing are" + missing);
 }
 
-/// The shards' secret; none if they have several: with another one, clouds would not be found where
-/// they were shown.
-std::optional<Secret> secretOf(const std::vector<ShardRun>& parts) {
+/// The shards' secret; none if they have several.
+std::optional<Secret> commonSecret(const std::vector<ShardRun>& parts) {
   const std::optional<Secret>& first = parts.front().info.secret;
   for (const ShardRun& part : parts) {
     const std::optional<Secret>& other = part.info.secret;
@@ -117,9 +116,23 @@ std::optional<Secret> secretOf(const std::vector<ShardRun>& parts) {
   return first;
 }
 
+/// Each problem's, by its subject: with another one, clouds would not be found where they were
+/// shown.
+std::map<std::string, std::string> secretsByProblem(const std::vector<ShardRun>& parts) {
+  std::map<std::string, std::string> secrets;
+  for (const ShardRun& part : parts) {
+    for (const Result& result : part.results) {
+      const auto secret = part.info.secretOf(result.key);
+      if (secret) secrets[result.key.subject()] = secret->toHex();
+    }
+  }
+  return secrets;
+}
+
 RunInfo asMerged(RunInfo info, const std::vector<ShardRun>& parts) {
   info.configuration.selection.shard = ShardNumber{};
-  info.secret = secretOf(parts);
+  info.secret = commonSecret(parts);
+  if (info.needsSecret() && !info.secret) info.shard_secrets = secretsByProblem(parts);
   info.created = secondsSinceEpoch();
   info.merged_from = std::to_string(parts.size()) + " shards";
   return info;

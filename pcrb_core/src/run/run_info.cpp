@@ -17,6 +17,7 @@ void readRunKey(RunInfo& info, const std::string& key, const std::string& text) 
   if (const RunTableRow* row = findRunTableRow(key)) {
     row->read(info, text);
   } else if (const NamedRunTableRows* rows = findNamedRunTableRows(key)) {
+    if (rows->check != nullptr) rows->check(text);
     (info.*rows->member)[key.substr(rows->prefix.size())] = text;
   } else {
     info.others[key] = text;
@@ -115,6 +116,18 @@ RunTable RunInfo::writeShown() const {
     if (row != nullptr && row->is_shown) shown[key] = text;
   }
   return shown;
+}
+
+bool RunInfo::needsSecret() const {
+  return configuration.presentation.isLocalization() || configuration.presentation.audit;
+}
+
+std::optional<Secret> RunInfo::secretOf(const ProblemKey& key) const {
+  if (secret) return secret;
+  if (!needsSecret()) return Secret();
+  const auto found = shard_secrets.find(key.subject());
+  return found == shard_secrets.end() ? std::nullopt
+                                      : std::optional(Secret::fromHex(found->second));
 }
 
 bool RunInfo::isOfARun() const { return absent.count("shard") == 0; }

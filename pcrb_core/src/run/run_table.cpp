@@ -202,8 +202,10 @@ const std::vector<NamedRunTableRows>& namedRunTableRows() {
       {"problem_file ", RunKeyRole::kConfiguration, &RunInfo::problem_files},
       {"drawn_by ", RunKeyRole::kRecorded, &RunInfo::drawn_by},
       {"voxel_leaf ", RunKeyRole::kConfiguration, &RunInfo::voxel_leaves,
-       true},                                                      // none in old runs
-      {"cloud ", RunKeyRole::kRecorded, &RunInfo::clouds, true}};  // of those used so far
+       true},                                                     // none in old runs
+      {"cloud ", RunKeyRole::kRecorded, &RunInfo::clouds, true},  // of those used so far
+      {"secret ", RunKeyRole::kOwn, &RunInfo::shard_secrets, true,
+       [](const std::string& text) { Secret::fromHex(text); }}};
   return rows;
 }
 

@@ -32,6 +32,7 @@ struct NamedRunTableRows {
   RunKeyRole role;
   std::map<std::string, std::string> RunInfo::*member;
   bool may_lack = false;  ///< whether a key that only one of two tables has is no difference
+  void (*check)(const std::string&) = nullptr;  ///< @throws InvalidParameter
 };
 
 /// All rows of the first kind, and of the second.

@@ -7,6 +7,7 @@
 
 #include "pcrb_core/run/result.hpp"
 #include "pcrb_core/run/results_store.hpp"
+#include "pcrb_core/run/run_info.hpp"
 #include "run/some_results.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -75,13 +76,34 @@ TEST_F(MergeRunsTest, GivesTheRunThatWouldHaveBeenWithoutShards) {
   EXPECT_TRUE(fs::exists(options_.output + "/results.csv"));
 }
 
-TEST_F(MergeRunsTest, OfShardsWithASecretEachHasNone) {
+TEST_F(MergeRunsTest, OfShardsWithASecretEachKeepsThatOfEachProblem) {
+  const std::string another = "ffffffffffffffffffffffffffffffff";
+  Info first = infoOf("0/2", "1"), second = infoOf("1/2", "1");
+  second["secret"] = another;
+  first["presentation"] = second["presentation"] = "localization";
+  options_.runs = {makeShard("a", first, {"1"}), makeShard("b", second, {"2"})};
+  options_.output = folder_.file("merged");
+  mergeRuns(options_);
+  const auto secretOf = [this](const std::string& id) {
+    return RunInfo::read(merged()).secretOf(fullResult(id).key).value().toHex();
+  };
+  EXPECT_EQ(merged().runInfo().count("secret"), 0U);
+  EXPECT_EQ(secretOf("1"), kSomeSecret);
+  EXPECT_EQ(secretOf("2"), another);
+
+  options_.runs = {options_.output};  // itself a run of one shard
+  options_.output = folder_.file("merged again");
+  mergeRuns(options_);
+  EXPECT_EQ(secretOf("2"), another);
+}
+
+TEST_F(MergeRunsTest, OfShardsWithASecretEachHasNoneWhereItMovedNothing) {
   Info second = infoOf("1/2", "1");
   second["secret"] = "ffffffffffffffffffffffffffffffff";
   options_.runs = {makeShard("a", infoOf("0/2", "1"), {"1"}), makeShard("b", second, {"2"})};
   options_.output = folder_.file("merged");
   mergeRuns(options_);
-  EXPECT_EQ(merged().runInfo().count("secret"), 0U);
+  for (const auto& [key, text] : merged().runInfo()) EXPECT_NE(key.rfind("secret", 0), 0U) << key;
 }
 
 TEST_F(MergeRunsTest, AddsUpWhatTheNodeUnderTestUsed) {

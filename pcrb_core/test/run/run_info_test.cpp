@@ -45,6 +45,7 @@ RunInfo someInfo() {
   info.node_cpu_time = 0.25;
   info.node_peak_memory = 4096;
   info.merged_from = "2 shards";
+  info.shard_secrets = {{"eth/plain local 1 2", kHex}};
   info.others = {{"of another version", "x"}};
   return info;
 }
@@ -76,6 +77,7 @@ TEST(RunInfo, IsTheTableThatRunsHave) {
                        {"problems", "12"},
                        {"root", "/data"},
                        {"secret", kHex},
+                       {"secret eth/plain local 1 2", kHex},
                        {"seed", "7"},
                        {"sequences", "eth long"},
                        {"shard", "2/5"},
@@ -123,6 +125,7 @@ TEST(RunInfo, RefusesATextThatIsNoValueOfItsKey) {
                                        {"time_limit", "long"},
                                        {"handshake", "maybe"},
                                        {"secret", "12"},
+                                       {"secret eth/plain local 1", "12"},
                                        {"created", ""},
                                        {"problems", "1.5"},
                                        {"kinds", "local both"}}) {
@@ -166,6 +169,7 @@ TEST(RunInfo, ComparesOfShardsAllButWhatTellsThemApart) {
   other.configuration.selection.root = "/elsewhere";
   other.configuration.selection.shard = {3, 5};
   other.secret = Secret::draw();
+  other.shard_secrets.clear();
   other.created = 2.0;
   other.problems = 13;
   other.node_cpu_time = 9.0;

@@ -70,27 +70,27 @@ std::map<ProblemKey, PlannedProblem> loadProblems(const ProblemSelection& select
   return problemsByKey(plan);
 }
 
-Secret secretOfRun(const RunInfo& info, const std::string& run) {
-  const PresentationOptions& presentation = info.configuration.presentation;
-  if (!presentation.isLocalization() && !presentation.audit) {
-    return Secret::fromHex(std::string(32, '0'));  // nothing is derived from it
-  }
-  if (info.secret) return *info.secret;
-  throw StoreError(run +
-                   ": the run table has no `secret`: no run of benchmark_server, or one that was "
-                   "merged of shards with a secret each; show a shard in its place");
+Secret requireSecret(const RunInfo& info, const Result& result, const std::string& run) {
+  if (const auto secret = info.secretOf(result.key)) return *secret;
+  throw StoreError(run + ": the run table has no `secret` of " + result.key.subject() +
+                   ": no run of benchmark_server, or one that an earlier version merged of shards: "
+                   "merge them again, or show a shard");
 }
 
 class RunPlayback : public Playback {
  public:
   RunPlayback(const RunOptions& options, const RunInfo& info, const std::vector<Result>& results)
-      : info_(info),
+      : run_(options.run),
+        info_(info),
         selection_(selectionOf(options, info, results)),
         results_(results),
         problems_(loadProblems(selection_, info)),
-        poser_(selection_.root, info.configuration.presentation, secretOfRun(info, options.run)),
+        poser_(selection_.root, {}, Secret()),
         frames_(options.map_frame) {
-    for (const Result& result : results_) plannedOf(result);
+    for (const Result& result : results_) {
+      plannedOf(result);
+      requireSecret(info_, result, run_);
+    }
   }
 
   std::size_t size() const override { return results_.size(); }
@@ -101,6 +101,8 @@ class RunPlayback : public Playback {
     PosedProblem posed = poser_.pose(plannedOf(result));
     requireSame(*posed.target);
     requireSame(*posed.source);
+    posed.presentation =
+        present(posed, info_.configuration.presentation, requireSecret(info_, result, run_));
     const Transform T_residual = posed.presentation.residual(scoredPose(posed, result));
     // Both presentations show the source where its guess puts it, in the map's frame.
     posed.presentation = presentForRegistration(posed.P);
@@ -143,6 +145,7 @@ class RunPlayback : public Playback {
     throw StoreError(selection_.root + ": " + cloud.name + " has changed since the run used it");
   }
 
+  std::string run_;
   RunInfo info_;
   ProblemSelection selection_;
   std::vector<Result> results_;

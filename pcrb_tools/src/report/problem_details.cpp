@@ -143,13 +143,12 @@ void ProblemDetails::addErrorPerMetre(ScoredProblem& problem) {
 
 void ProblemDetails::addComponents(const pcrb::RunInfo& info, ScoredProblem& problem) {
   if (!problem.reply) return;
-  const pcrb::PresentationOptions& options = info.configuration.presentation;
-  const bool is_moved = options.isLocalization() || options.audit;
-  if (is_moved && !info.secret) return;  // merged of shards with a secret each
+  const auto secret = info.secretOf(problem.key);
+  if (!secret) return;  // merged by an earlier version, which kept one alone
   const pcrb::PlannedProblem planned = plan(problem.key);
   const pcrb::PosedProblem posed = poser_.pose(planned);
   const pcrb::Presentation presentation =
-      pcrb::present(posed, options, info.secret.value_or(pcrb::Secret()));
+      pcrb::present(posed, info.configuration.presentation, *secret);
   const Transform residual = presentation.residual(*problem.reply);
   const pcrb::PoseComponents components =
       pcrb::poseComponents(residual, posed.source->metric->centroid());

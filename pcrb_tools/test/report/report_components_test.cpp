@@ -10,7 +10,9 @@
 #include "pcrb_core/problem/perturbation.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/random.hpp"
+#include "pcrb_core/run/problem_poser.hpp"
 #include "pcrb_core/run/results_store.hpp"
+#include "pcrb_core/run/run_plan.hpp"
 #include "report/problem_details.hpp"
 #include "run/some_results.hpp"
 #include "support/expect_error.hpp"
@@ -75,6 +77,27 @@ TEST_F(ProblemDetailsTest, AreTheErrorsOfTheReplyAlongAndAboutEachAxis) {
   const std::array<double, 6> expected{0.1, 0.0, -0.3, 0.0, 0.0, 0.02};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(components[i], expected[i], 1e-4) << i;
   EXPECT_GT(entry_.problems[0].error_per_metre.value(), 1.0 / 20.0);
+}
+
+TEST_F(ProblemDetailsTest, FollowTheSecretOfTheShardThatPosedTheProblem) {
+  const pcrb::Secret secret = pcrb::Secret::fromHex("00112233445566778899aabbccddeeff");
+  ScoredProblem& problem = entry_.problems[0];
+  pcrb::RunInfo& info = *entry_.info;
+  info.configuration.presentation = {pcrb::PresentationKind::kLocalization, false, true};
+  pcrb::ProblemSelection selection;
+  selection.root = folder_.path();
+  const pcrb::RunPlan plan = pcrb::makeRunPlan(selection);
+  const pcrb::PosedProblem posed =
+      pcrb::ProblemPoser(folder_.path(), info.configuration.presentation, secret)
+          .pose(plan.problems.front());
+  const pcrb::Transform residual = *problem.reply * posed.P;
+  problem.reply =
+      posed.presentation.target_applied * residual * posed.presentation.applied.inverse();
+  addComponents();
+  EXPECT_FALSE(problem.components) << "found without a secret";
+  info.shard_secrets[problem.key.subject()] = secret.toHex();
+  addComponents();
+  EXPECT_NEAR(problem.components.value()[2], -0.3, 1e-4);
 }
 
 TEST_F(ProblemDetailsTest, JudgeTheCovarianceOfTheReplyAgainstItsErrorInTheTargetsFrame) {

@@ -53,6 +53,9 @@ struct RunInfo {
   std::uint64_t node_peak_memory = 0;  ///< bytes, 0 = unknown
   std::uint64_t foreign_replies = 0;   ///< replies of nodes that were not the problem's client
   std::string merged_from;             ///< e.g. `4 shards`; empty but for a merged run
+  /// Of a run that was merged of shards with a secret each, where clouds were put as it says:
+  /// subject of a problem → its shard's secret.
+  std::map<std::string, std::string> shard_secrets;
 
   std::map<std::string, std::string> others;  ///< what this version has no member for
   std::set<std::string> absent;  ///< keys that the table lacks; their members have defaults
@@ -77,6 +80,13 @@ struct RunInfo {
   /// Whether the table is that of a run: all runs have a shard.
   bool isOfARun() const;
 
+  /// Whether a secret says where clouds were put.
+  bool needsSecret() const;
+
+  /// The secret that a problem was posed with; any one where none is needed, nothing where it is
+  /// not known.
+  std::optional<Secret> secretOf(const ProblemKey& key) const;
+
   /// A key whose value differs; without a value where there is none.
   struct Difference {
     std::string key;
@@ -94,8 +104,7 @@ struct RunInfo {
   /// Ordered by key.
   std::vector<Difference> differences(const RunInfo& other, Scope scope) const;
 
-  /// Takes in what another shard of the run has noted; the secrets of shards differ, so that a
-  /// merged run has a new one.
+  /// Takes in what another shard of the run has noted, but for its secret.
   void merge(const RunInfo& shard);
 };
 
