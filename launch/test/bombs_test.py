@@ -119,6 +119,15 @@ class BombsTest(TestCase):
             os.truncate(os.path.join(self.folder, f'{i}.pcd'), 240000000 + os.path.getsize(os.path.join(self.folder, f'{i}.pcd')))
         self.explode('8 PCDs of 240 MB, 8 threads', 'takes .* MB of memory, expected', 'build_map', self.folder, '-o',
                      self.path('map.pcd'), '--leaf', '1', '--threads', '8')
+        self.clear()
+        for i in range(8):
+            with open(os.path.join(self.folder, f'{1000 + i}.000000.bin'), 'wb') as file:
+                file.truncate(240000000)
+        with open(os.path.join(self.folder, 'poses.txt'), 'w') as poses:
+            poses.writelines(f'{1000 + i}.0 0 0 0 0 0 0 1\n' for i in range(8))
+        self.explode('8 scans of 240 MB, 8 threads', 'a scan that takes .* MB of memory, expected', 'convert_log', self.folder, '--root',
+                     self.root, '--data-set', 'mine', '--sequence', 'yard', '--threads', '8', '--overlap-distance', '1',
+                     '--voxel-leaf', '1')
 
     def test_archives(self):
         archive = os.path.join(self.folder, 'yard.tgz')

@@ -1,13 +1,14 @@
 #include "conversion/conversion.hpp"
 
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "common/process.hpp"
 #include "pcrb_core/datasets/stamp_mismatch.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_core/io/memory_budget.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/problem/problem.hpp"
 
@@ -28,6 +29,16 @@ pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t 
 }
 
 }  // namespace
+
+pcrb::MemoryBudget::Share takeMemoryOfFiles(const std::vector<std::string>& files) {
+  std::size_t bytes = 0;
+  for (const std::string& file : files) {
+    std::error_code is_none;  // a regular file: who reads it will say so
+    const std::uintmax_t size = std::filesystem::file_size(file, is_none);
+    if (!is_none) bytes += size;
+  }
+  return takeMemoryOfScan(files.front(), bytes);
+}
 
 void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion,
                    const std::vector<std::string>& notes) {
@@ -62,8 +73,8 @@ void convertFileScans(const LogFiles& files, std::vector<FileScan> scans, Conver
     }
     conversion.add(scan.cloud_name, [&files, index = scan.file, make = std::move(scan.make)] {
       const std::string path = files.all()[index].path();
+      const auto share = takeMemoryOfFiles({path});
       const pcrb::FileBytes bytes = files.read(index);
-      const auto share = takeMemoryOfScan(path, bytes.text().size());
       return make(bytes.text(), path);
     });
   }

@@ -17,6 +17,7 @@
 #include "conversion/worker_pool.hpp"
 #include "pcrb_core/datasets/sensor_scan.hpp"
 #include "pcrb_core/datasets/trajectory.hpp"
+#include "pcrb_core/io/memory_budget.hpp"
 #include "pcrb_core/point_cloud.hpp"
 #include "pcrb_core/transform.hpp"
 
@@ -28,6 +29,10 @@ struct ConvertedScan {
   pcrb::PointCounts counts;
   std::string refusal{};  ///< why there is no cloud; empty = there is
 };
+
+/// Waits for the memory that a scan takes, before its files are read.
+/// @throws InvalidFile  if that is more than the process's MemoryBudget.
+pcrb::MemoryBudget::Share takeMemoryOfFiles(const std::vector<std::string>& files);
 
 /// One run of a converter: clouds are made in parallel and end up in their folder; what an earlier
 /// run completed from the same inputs is kept, what it made and this one does not is removed.

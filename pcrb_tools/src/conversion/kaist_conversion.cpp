@@ -102,6 +102,8 @@ class KaistLog {
     spoolArchived(work, *spool);
     for (const Work& pair : work) {
       conversion.add(pair.pair.cloud_name, [this, spool, pair] {
+        const auto share =
+            takeMemoryOfFiles({pathOf(pair.left, *spool), pathOf(pair.right, *spool)});
         return mergePair(frames_, pair.pair, readScan(pair.left, *spool),
                          readScan(pair.right, *spool));
       });
@@ -157,11 +159,16 @@ class KaistLog {
     });
   }
 
+  /// Where a scan's bytes are.
+  std::string pathOf(std::size_t index, const SpoolFolder& spool) const {
+    const LogFile& file = files_.all()[index];
+    return file.in_archive ? spool.path(index) : file.path();
+  }
+
   /// Called by workers.
   pcrb::SensorScan readScan(std::size_t index, const SpoolFolder& spool) const {
-    const LogFile& file = files_.all()[index];
-    const pcrb::FileBytes bytes(file.in_archive ? spool.path(index) : file.path());
-    return pcrb::parseVelodyneScan(bytes.text(), request_.origin, file.path());
+    const pcrb::FileBytes bytes(pathOf(index, spool));
+    return pcrb::parseVelodyneScan(bytes.text(), request_.origin, files_.all()[index].path());
   }
 
   const KaistRequest& request_;
