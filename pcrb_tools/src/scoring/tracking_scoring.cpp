@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,122 +10,22 @@
 #include "common/process.hpp"
 #include "common/progress.hpp"
 #include "common/sequence_paths.hpp"
-#include "common/series_file.hpp"
 #include "pcrb_core/datasets/cloud_file.hpp"
-#include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/datasets/stamp_mismatch.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/evaluation/metric.hpp"
-#include "pcrb_core/evaluation/trajectory_error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_core/transform.hpp"
 #include "pcrb_server/playback/scene.hpp"
 #include "scoring/quaternion_order.hpp"
 #include "scoring/scoring_tool.hpp"
 #include "scoring/tracked_poses.hpp"
+#include "scoring/tracking_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kDegree = 57.29577951308232;  // per rad
-
-/// A scan of a sequence, and where a tracker thought it was.
-struct TrackedScan {
-  std::string name;
-  pcrb::Stamp stamp = 0;
-  pcrb::Transform truth = pcrb::Transform::Identity();  ///< T_map_sensor
-  std::optional<pcrb::Transform> T_map_sensor;          ///< estimated; nothing = no pose
-  std::optional<pcrb::PoseError> error;
-  double held_error = 0.0;  ///< of the pose, or without one of the last pose before it
-};
-
-std::vector<double> inDegrees(std::vector<double> angles) {
-  for (double& angle : angles) angle *= kDegree;
-  return angles;
-}
-
-void appendTum(std::string& text, pcrb::Stamp stamp, const pcrb::Transform& T) {
-  const Eigen::Quaterniond q = Eigen::Quaterniond(T.linear()).normalized();
-  const Eigen::Vector3d& t = T.translation();
-  text += pcrb::formatStamp(stamp);
-  for (const double number : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
-    text += ' ';
-    pcrb::appendShortest(text, number);
-  }
-  text += '\n';
-}
-
-void appendRow(std::ostream& out, const std::string& name, const std::vector<double>& errors) {
-  const pcrb::ErrorStatistics s = pcrb::describeErrors(errors);
-  out << std::left << std::setw(20) << name << std::right << std::setw(6) << s.count;
-  for (const double value : {s.rmse, s.mean, s.median, s.stddev, s.min, s.max, s.sse}) {
-    out << "  " << std::setw(10)
-        << (std::isnan(value) ? std::string("-") : pcrb::formatFixed(value, 6));
-  }
-  out << '\n';
-}
-
-/// Of the scans that have one.
-struct Matched {
-  pcrb::Poses truth;
-  pcrb::Poses estimate;
-  std::vector<double> errors;
-  std::vector<double> held_errors;  ///< of all scans
-};
-
-Matched match(const std::vector<TrackedScan>& scans) {
-  Matched matched;
-  for (const TrackedScan& scan : scans) {
-    matched.held_errors.push_back(scan.held_error);
-    if (!scan.T_map_sensor) continue;
-    matched.truth.push_back(scan.truth);
-    matched.estimate.push_back(*scan.T_map_sensor);
-    matched.errors.push_back(scan.error->error);
-  }
-  return matched;
-}
-
-/// One line per scan; without a pose its fields are empty.
-std::string formatScansCsv(const std::vector<TrackedScan>& scans) {
-  std::string text = kScansHeader + std::string("\n");
-  for (const TrackedScan& scan : scans) {
-    text += scan.name + ',' + pcrb::formatStamp(scan.stamp);
-    if (scan.error) {
-      for (const double value :
-           {scan.error->error, scan.error->rotation_error, scan.error->translation_error}) {
-        text += ',';
-        pcrb::appendShortest(text, value);
-      }
-    } else {
-      text += ",,,";
-    }
-    text += ',';
-    pcrb::appendShortest(text, scan.held_error);
-    text += '\n';
-  }
-  return text;
-}
-
-/// TUM's format, which evo reads, of the scans that have a pose.
-std::string formatTruthTum(const std::vector<TrackedScan>& scans) {
-  std::string text;
-  for (const TrackedScan& scan : scans) {
-    if (scan.T_map_sensor) appendTum(text, scan.stamp, scan.truth);
-  }
-  return text;
-}
-
-std::string formatEstimateTum(const std::vector<TrackedScan>& scans) {
-  std::string text;
-  for (const TrackedScan& scan : scans) {
-    if (scan.T_map_sensor) appendTum(text, scan.stamp, *scan.T_map_sensor);
-  }
-  return text;
-}
 
 void requireMatches(const std::vector<TrackedScan>& scans, const pcrb::Trajectory& trajectory) {
   std::vector<pcrb::Stamp> stamps;
@@ -139,48 +37,6 @@ void requireMatches(const std::vector<TrackedScan>& scans, const pcrb::Trajector
                                " scans (" + pcrb::describeMismatch(stamps, trajectory.stamps()) +
                                "), expected some with timestamps like the scans' "
                                "(--max-difference, --time-offset)");
-}
-
-/// A table: the benchmark's error, APE and RPE with evo's statistics.
-std::string summarizeTracking(const std::vector<TrackedScan>& scans,
-                              const TrackingOptions& options) {
-  const std::size_t delta = options.delta;
-  const bool align = options.align;
-  const Matched matched = match(scans);
-  const auto absolute = pcrb::absolutePoseErrors(
-      matched.truth,
-      align ? pcrb::alignToReference(matched.truth, matched.estimate) : matched.estimate);
-  const auto relative = pcrb::relativePoseErrors(matched.truth, matched.estimate, delta);
-  std::ostringstream out;
-  out << "scans " << scans.size() << ", with a pose " << matched.estimate.size() << "; APE "
-      << (align ? "after a rigid alignment" : "without alignment") << ", RPE over " << delta
-      << (delta == 1 ? " scan\n" : " scans\n");
-  out << "                     count        rmse        mean      median      stddev         min"
-         "         max         sse\n";
-  appendRow(out, "error", matched.errors);
-  appendRow(out, "error, lost held", matched.held_errors);
-  appendRow(out, "APE translation m", absolute.translation);
-  appendRow(out, "APE rotation deg", inDegrees(absolute.rotation));
-  appendRow(out, "RPE translation m", relative.translation);
-  appendRow(out, "RPE rotation deg", inDegrees(relative.rotation));
-  const auto over_metres =
-      pcrb::relativePoseErrorsOver(matched.truth, matched.estimate, options.metres);
-  const std::string name = "RPE " + pcrb::formatShortest(options.metres) + " m ";
-  appendRow(out, name + "m", over_metres.translation);
-  appendRow(out, name + "deg", inDegrees(over_metres.rotation));
-  const pcrb::Drift drift = pcrb::drift(matched.truth, matched.estimate);
-  if (drift.segments > 0) {
-    out << "drift over " << pcrb::formatShortest(drift.lengths.front()) << " to "
-        << pcrb::formatShortest(drift.lengths.back()) << " m: t_rel "
-        << pcrb::formatFixed(drift.translation_percent, 4) << " %, r_rel "
-        << pcrb::formatFixed(drift.rotation_degrees_per_metre, 6) << " deg/m\n";
-  }
-  const std::size_t lost = scans.size() - matched.estimate.size();
-  if (lost > 0) {
-    out << "lost " << lost << " of " << scans.size()
-        << " scans; in `lost held` each counts with the last pose before it\n";
-  }
-  return out.str();
 }
 
 pcrb::ScanList listOf(const TrackingOptions& options) {
