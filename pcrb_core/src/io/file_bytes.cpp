@@ -11,6 +11,7 @@
 #include <fstream>
 #include <vector>
 
+#include "io/large_pages.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
 
@@ -83,6 +84,7 @@ FileBytes::FileBytes(const std::string& path) {
   const std::size_t size = file.size();
   requireWithinBudget(path, size);
   bytes_.reset(new char[size]);
+  preferLargePages(bytes_.get(), size);
   size_ = file.read(bytes_.get(), size);
 }
 

@@ -3,6 +3,7 @@
 #include <future>
 #include <string_view>
 
+#include "io/large_pages.hpp"
 #include "pcd_header.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
@@ -118,6 +119,7 @@ class alignas(kCacheLine) AsciiReader {
   Part readRows(std::string_view text, std::size_t most_rows) const {
     Part part;
     part.points.reserve(most_rows);
+    preferLargePages(part.points.data(), most_rows * sizeof(Eigen::Vector3d));
     if (has_intensity_) part.intensity.reserve(most_rows);
     const char* const end = text.data() + text.size();
     double values[kPcdUses] = {};
