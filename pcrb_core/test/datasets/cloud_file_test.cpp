@@ -139,6 +139,30 @@ TEST(CloudFile, ReadsRecordsOfFloatsAndSuspectsAnotherLength) {
                     "a Git LFS pointer");
 }
 
+/// 64 records: x, y, z, and what follows.
+std::string recordsWith(const std::vector<float>& others) {
+  std::string bytes;
+  for (int i = 0; i != 64; ++i) {
+    const auto place = static_cast<float>(i);
+    bytes += bytesOf<float>({0.21F + 0.37F * place, -0.13F - 0.53F * place, 0.07F});
+    for (const float other : others) bytes += bytesOf<float>({other + place});
+  }
+  return bytes;
+}
+
+TEST(CloudFile, ReadsNoRecordsWithRingsAsShorterOnes) {
+  CloudFileOptions five;
+  five.bin_fields = 5;
+  const std::string rings = recordsWith({0.3F, 1.0F});
+  EXPECT_EQ(parse(rings, "0.bin", five).points.size(), 64u);
+  PCRB_EXPECT_ERROR(InvalidFile, parse(rings, "0.bin"), "try --bin-fields 5");
+  PCRB_EXPECT_ERROR(InvalidFile, parse(recordsWith({0.3F, 1.0F, 0.01F, 0.02F, 0.04F}), "0.bin"),
+                    "try --bin-fields 8");
+  EXPECT_EQ(parse(recordsWith({0.3F}), "0.bin").points.size(), 64u);
+  EXPECT_EQ(parse(recordsWith({7.0F}), "0.bin").points.size(), 64u) << "whole intensities";
+  PCRB_EXPECT_ERROR(InvalidFile, parse(recordsWith({7.0F}), "0.bin", five), "expected records");
+}
+
 TEST(CloudFile, ReadsArraysOfNumpy) {
   expectTwoPoints(
       parse(npy("'<f4'", "(2, 4)", bytesOf<float>({1.5F, -2, 3, 9, 4, 5, 6, 9})), "a.npy"));
