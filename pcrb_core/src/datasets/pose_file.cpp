@@ -150,8 +150,15 @@ class Rows {
   }
 
   Stamp stampOf(std::string_view word) {
+    constexpr double kLeastInSmallUnits = 1e11;  // of 1973 in ms
     if (!unit_) {
       const bool is_integer = word.find_first_not_of("0123456789") == std::string_view::npos;
+      if (file_.format == PoseFormat::kEuroc && !is_integer &&
+          parseDouble(word).value_or(0.0) < kLeastInSmallUnits) {
+        file_.notes.emplace_back(
+            "rows with commas were taken as EuRoC's, w first in the quaternions, although the "
+            "timestamps are in seconds (--pose-format tum: w last)");
+      }
       unit_ = file_.format != PoseFormat::kTum && is_integer ? 1 : unitBySize(word, file_.notes);
     }
     return requireStamp(reader_, word, *unit_);

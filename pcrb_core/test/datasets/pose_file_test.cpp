@@ -43,6 +43,18 @@ TEST(PoseFile, TakesTimestampsInNanosecondsForWhatTheyAreAndSaysSo) {
   }
 }
 
+TEST(PoseFile, SaysThatItTakesCommasForEurocsOrderWhereTimestampsAreSeconds) {
+  const std::string row = "1403636579.763555584,1,2,3," + kQuarter + ",0,0," + kQuarter + "\n";
+  const PoseFile euroc = parse(row);
+  expectQuarterTurn(euroc.poses.at(0).T_world_body);
+  ASSERT_EQ(euroc.notes.size(), 1u);
+  EXPECT_NE(euroc.notes[0].find("w first"), std::string::npos) << euroc.notes[0];
+  const std::string w_last = "1403636579.763555584,1,2,3,0,0," + kQuarter + "," + kQuarter + "\n";
+  const PoseFile tum = parsePoseFile(w_last, "poses", PoseFormat::kTum);
+  expectQuarterTurn(tum.poses.at(0).T_world_body);
+  EXPECT_TRUE(tum.notes.empty());
+}
+
 TEST(PoseFile, ReadsKittisFormatWithAndWithoutNumbersAndAFourthRow) {
   for (const std::string& row : {kMatrix, "0 " + kMatrix, kMatrix + " 0 0 0 1"}) {
     const PoseFile file = parse(row + "\n");
