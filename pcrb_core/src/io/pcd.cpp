@@ -11,9 +11,9 @@
 
 #include "pcd_header.hpp"
 #include "pcrb_core/error.hpp"
-#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/pcd_output.hpp"
 #include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
@@ -131,6 +131,11 @@ std::optional<Transform> readViewpoint(const std::string& path) {
 
 void writePcd(const std::string& path, const DatasetCloud& cloud) {
   AtomicFile file(path);
+  writePcd(file, path, cloud);
+  file.commit();
+}
+
+void writePcd(AtomicFile& file, const std::string& path, const DatasetCloud& cloud) {
   file.write(formatHeader(cloud));
   std::array<char, 3 * (kLongestNumber + 1)> row;
   for (const Eigen::Vector3d& point : cloud.points) {
@@ -144,7 +149,6 @@ void writePcd(const std::string& path, const DatasetCloud& cloud) {
     }
     file.write({row.data(), static_cast<std::size_t>(end - row.data())});
   }
-  file.commit();
 }
 
 namespace {

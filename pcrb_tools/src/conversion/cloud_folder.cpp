@@ -2,11 +2,13 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/io/pcd_output.hpp"
 #include "pcrb_core/io/text.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
 
@@ -58,11 +60,17 @@ std::optional<pcrb::PointCounts> CloudFolder::kept(const std::string& name,
   return note ? parseCounts(*note) : std::nullopt;
 }
 
-void CloudFolder::write(const std::string& name, const std::string& fingerprint,
-                        const pcrb::DatasetCloud& cloud, const pcrb::PointCounts& counts) {
+std::function<void()> CloudFolder::write(const std::string& name, const std::string& fingerprint,
+                                         const pcrb::DatasetCloud& cloud,
+                                         const pcrb::PointCounts& counts) {
   files_.begin(name);
-  pcrb::writePcd(files_.fileOf(name), cloud);
-  files_.record(name, fingerprint, formatCounts(counts));
+  const std::string path = files_.fileOf(name);
+  const auto file = std::make_shared<pcrb::AtomicFile>(path);
+  pcrb::writePcd(*file, path, cloud);
+  return [this, file, name, fingerprint, note = formatCounts(counts)] {
+    file->commit();
+    files_.record(name, fingerprint, note);
+  };
 }
 
 std::vector<std::string> CloudFolder::removeStale(const std::set<std::string>& names) {

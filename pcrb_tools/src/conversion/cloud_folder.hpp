@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,10 +35,13 @@ class CloudFolder {
   ///                      a conversion, or changed since.
   void requireReplaceable(const std::string& name) const { files_.requireReplaceable(name); }
 
-  /// Writes a cloud, complete or not at all, and records it.
-  /// @throws InvalidFile  if it cannot be written completely.
-  void write(const std::string& name, const std::string& fingerprint,
-             const pcrb::DatasetCloud& cloud, const pcrb::PointCounts& counts);
+  /// Writes a cloud, complete or not at all: it is not there yet.
+  ///
+  /// @return  waits until the disk has it, puts it into its place and records it, on any thread,
+  ///          while this folder is there. Nothing is left of a cloud whose function was not called.
+  /// @throws InvalidFile, as its function does, if it cannot be written completely.
+  std::function<void()> write(const std::string& name, const std::string& fingerprint,
+                              const pcrb::DatasetCloud& cloud, const pcrb::PointCounts& counts);
 
   /// Removes the clouds that earlier runs recorded, if they are unchanged, other than those named.
   /// @return  the names of the removed ones.

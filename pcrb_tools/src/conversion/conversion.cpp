@@ -18,6 +18,10 @@ namespace {
 /// Part of every fingerprint: raise it when the same log gives other bytes.
 constexpr const char* kConverterVersion = "2";
 
+/// Clouds that are written and for which the disk is waited: it takes several at once as soon as
+/// one.
+constexpr int kCommitThreads = 4;
+
 /// Waits for the memory that a scan's bytes, points and written cloud take together.
 pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t bytes) {
   constexpr std::size_t kExpansion = 6;  // of a binary scan, which expands most
@@ -98,6 +102,7 @@ Conversion::Conversion(const ConversionRequest& request, const std::string& sequ
       progress_(sequence, "scans", total_scans),
       live_(request.live),
       force_(request.force),
+      commits_(kCommitThreads, kCommitThreads),
       workers_(request.threads, request.max_waiting > 0
                                     ? request.max_waiting
                                     : static_cast<std::size_t>(request.threads)) {
@@ -135,14 +140,24 @@ void Conversion::makeCloud(const std::string& cloud_name, const std::string& fin
   std::string refusal = scan.refusal;
   // No stage after this one could use an empty cloud.
   if (refusal.empty() && scan.cloud.points.empty()) refusal = "without a valid point";
-  if (refusal.empty()) folder_.write(cloud_name, fingerprint, scan.cloud, scan.counts);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (!refusal.empty()) {
-    report_.dropped[refusal].push_back(cloud_name);
-  } else {
-    done_[cloud_name] = {scan.counts, false};
+  if (refusal.empty()) {
+    commitLater(cloud_name, scan.counts,
+                folder_.write(cloud_name, fingerprint, scan.cloud, scan.counts));
+    return;
   }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.dropped[refusal].push_back(cloud_name);
   progress_.add(1);
+}
+
+void Conversion::commitLater(const std::string& cloud_name, const pcrb::PointCounts& counts,
+                             std::function<void()> commit) {
+  commits_.submit([this, cloud_name, counts, commit = std::move(commit)] {
+    commit();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    done_[cloud_name] = {counts, false};
+    progress_.add(1);
+  });
 }
 
 void Conversion::add(const std::string& cloud_name, Make make) {
@@ -155,10 +170,13 @@ void Conversion::add(const std::string& cloud_name, Make make) {
   }
 }
 
-void Conversion::waitForAll() { workers_.finish(); }
+void Conversion::waitForAll() {
+  workers_.finish();
+  commits_.finish();
+}
 
 void Conversion::retract(const std::string& cloud_name) {
-  workers_.finish();
+  waitForAll();
   const std::lock_guard<std::mutex> lock(mutex_);
   fingerprints_.erase(cloud_name);
   done_.erase(cloud_name);
@@ -207,7 +225,7 @@ void Conversion::summarize() {
 }
 
 ConversionReport Conversion::finish() {
-  workers_.finish();
+  waitForAll();
   Interruption::check();
   progress_.finish();
   summarize();

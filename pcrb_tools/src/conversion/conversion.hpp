@@ -75,7 +75,10 @@ class Conversion {
   void setPoseStamps(std::vector<pcrb::Stamp> stamps) { pose_stamps_ = std::move(stamps); }
 
   /// Throws what a scan has thrown, for callers between whose scans time may pass.
-  void check() { workers_.check(); }
+  void check() {
+    workers_.check();
+    commits_.check();
+  }
 
   void note(const std::string& text) { report_.notes.push_back(text); }
 
@@ -100,6 +103,8 @@ class Conversion {
 
   WorkerPool::Job jobFor(const std::string& cloud_name, Make make);
   void makeCloud(const std::string& cloud_name, const std::string& fingerprint, const Make& make);
+  void commitLater(const std::string& cloud_name, const pcrb::PointCounts& counts,
+                   std::function<void()> commit);
   void summarize();
   void requireClouds() const;
 
@@ -114,6 +119,7 @@ class Conversion {
   Progress progress_;
   const bool live_;
   const bool force_;
+  WorkerPool commits_;  ///< wait for the disk, while the workers work on
   WorkerPool workers_;  // last: its threads end before what they use
 };
 

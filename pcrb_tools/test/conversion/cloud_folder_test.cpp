@@ -21,7 +21,7 @@ pcrb::DatasetCloud cloudAt(double x) {
 
 TEST(CloudFolder, KeepsACloudOfTheSameOriginWithItsCounts) {
   const pcrb_test::TemporaryFolder root;
-  CloudFolder(root.path(), "eth", "plain").write("a.pcd", "f1", cloudAt(1), {10, 3, 2, 1});
+  CloudFolder(root.path(), "eth", "plain").write("a.pcd", "f1", cloudAt(1), {10, 3, 2, 1})();
   const CloudFolder folder(root.path(), "eth", "plain");
   EXPECT_EQ(folder.path(), root.path() + "/eth/plain");
   const auto counts = folder.kept("a.pcd", "f1");
@@ -32,12 +32,24 @@ TEST(CloudFolder, KeepsACloudOfTheSameOriginWithItsCounts) {
   EXPECT_FALSE(folder.kept("b.pcd", "f1"));
 }
 
+TEST(CloudFolder, NothingIsThereOfACloudUntilItIsCommitted) {
+  const pcrb_test::TemporaryFolder root;
+  CloudFolder folder(root.path(), "eth", "plain");
+  folder.write("a.pcd", "f1", cloudAt(1), {});
+  EXPECT_EQ(pcrb_test::namesIn(folder.path()), std::vector<std::string>{".conversion"});
+  const auto commit = folder.write("a.pcd", "f1", cloudAt(1), {});
+  EXPECT_FALSE(folder.kept("a.pcd", "f1"));
+  commit();
+  EXPECT_TRUE(folder.kept("a.pcd", "f1"));
+  EXPECT_EQ(pcrb_test::namesIn(folder.path()), (std::vector<std::string>{".conversion", "a.pcd"}));
+}
+
 TEST(CloudFolder, DoesNotKeepACloudThatWasChangedOrRemoved) {
   const pcrb_test::TemporaryFolder root;
   {
     CloudFolder folder(root.path(), "eth", "plain");
-    folder.write("a.pcd", "f1", cloudAt(1), {});
-    folder.write("b.pcd", "f2", cloudAt(1), {});
+    folder.write("a.pcd", "f1", cloudAt(1), {})();
+    folder.write("b.pcd", "f2", cloudAt(1), {})();
   }
   std::ofstream(root.path() + "/eth/plain/a.pcd", std::ios::app) << "1 2 3\n";
   std::filesystem::remove(root.path() + "/eth/plain/b.pcd");
@@ -50,8 +62,8 @@ TEST(CloudFolder, ARecordThatAKillHasCutIsNotBelieved) {
   const pcrb_test::TemporaryFolder root;
   {
     CloudFolder folder(root.path(), "eth", "plain");
-    folder.write("a.pcd", "f1", cloudAt(1), {});
-    folder.write("b.pcd", "f2", cloudAt(1), {});
+    folder.write("a.pcd", "f1", cloudAt(1), {})();
+    folder.write("b.pcd", "f2", cloudAt(1), {})();
   }
   const std::string records = root.path() + "/eth/plain/.conversion";
   std::filesystem::resize_file(records, std::filesystem::file_size(records) - 3);
@@ -63,7 +75,7 @@ TEST(CloudFolder, ARecordThatAKillHasCutIsNotBelieved) {
 TEST(CloudFolder, ARecordAfterACutOneIsRead) {
   const pcrb_test::TemporaryFolder root;
   pcrb_test::writeFile(root.path() + "/eth/plain/.conversion", "a.pcd\tf1\t12");
-  CloudFolder(root.path(), "eth", "plain").write("b.pcd", "f2", cloudAt(1), {});
+  CloudFolder(root.path(), "eth", "plain").write("b.pcd", "f2", cloudAt(1), {})();
   EXPECT_TRUE(CloudFolder(root.path(), "eth", "plain").kept("b.pcd", "f2"));
 }
 
