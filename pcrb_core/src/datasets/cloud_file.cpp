@@ -29,6 +29,7 @@ SensorScan scanOfPcd(std::string_view bytes, OriginPoints origin, const std::str
   SensorScan scan;
   scan.viewpoint = cloud.viewpoint;
   scan.is_viewpoint_known = cloud.is_viewpoint_known;
+  scan.notes = cloud.notes;
   scan.points.reserve(cloud.points.size());
   for (std::size_t i = 0; i != cloud.points.size(); ++i) {
     const bool is_kept = scan.add(cloud.points[i], origin);

@@ -31,6 +31,7 @@ DatasetCloud placeScan(SensorScan scan, const Transform& T_dataset_sensor) {
   cloud.viewpoint = asViewpoint(T_dataset_sensor);
   cloud.is_viewpoint_known = true;
   cloud.dropped_non_finite = scan.counts.non_finite;
+  cloud.notes = std::move(scan.notes);
   return cloud;
 }
 

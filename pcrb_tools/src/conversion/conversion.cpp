@@ -137,6 +137,10 @@ WorkerPool::Job Conversion::jobFor(const std::string& cloud_name, Make make) {
 void Conversion::makeCloud(const std::string& cloud_name, const std::string& fingerprint,
                            const Make& make) {
   const ConvertedScan scan = make();
+  for (const std::string& odd : scan.cloud.notes) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++odd_clouds_[odd];
+  }
   std::string refusal = scan.refusal;
   // No stage after this one could use an empty cloud.
   if (refusal.empty() && scan.cloud.points.empty()) refusal = "without a valid point";
@@ -221,6 +225,9 @@ void Conversion::summarize() {
     report_.written.insert(name);
     report_.points += done.counts;
     if (done.kept) ++report_.scans_kept;
+  }
+  for (const auto& [odd, clouds] : odd_clouds_) {
+    note(odd + " (" + std::to_string(clouds) + " clouds)");
   }
 }
 

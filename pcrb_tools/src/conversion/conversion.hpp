@@ -113,8 +113,9 @@ class Conversion {
   ConversionReport report_;
   std::map<std::string, std::string> fingerprints_;  ///< of the announced clouds
   std::map<std::string, Done> done_;
-  std::vector<pcrb::Stamp> unposed_;      ///< of scans without a pose
-  std::vector<pcrb::Stamp> pose_stamps_;  ///< ascending
+  std::vector<pcrb::Stamp> unposed_;               ///< of scans without a pose
+  std::vector<pcrb::Stamp> pose_stamps_;           ///< ascending
+  std::map<std::string, std::size_t> odd_clouds_;  ///< how many have a reader's note
   bool went_back_ = false;
   Progress progress_;
   const bool live_;

@@ -266,6 +266,7 @@ class OwnFiles {
               converted.cloud.points = std::move(scan.points);
               converted.cloud.viewpoint = scan.viewpoint;
               converted.cloud.is_viewpoint_known = scan.is_viewpoint_known;
+              converted.cloud.notes = std::move(scan.notes);
               return converted;
             }};
   }

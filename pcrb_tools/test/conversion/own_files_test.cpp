@@ -227,6 +227,24 @@ TEST_F(OwnFilesConversion, PrintsHowManyPosesALaterOneReplaced) {
   expectPlaced("1500000000.000000000", 0);
 }
 
+TEST_F(OwnFilesConversion, PrintsWhatReadersTookAlthoughItIsOdd) {
+  const std::string pcd =
+      "FIELDS X Y Z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nVIEWPOINT 0 0 0 0 0 0 0\n"
+      "POINTS 1\nDATA ascii\n1 2 3\n";
+  write("000000.pcd", pcd);
+  write("000001.pcd", pcd);
+  write("poses.txt", matrixRow(0) + "\n" + matrixRow(1) + "\n");
+  OwnRequest placed = request();
+  const std::string posed_report = formatReport(convertOwn(placed));
+  std::filesystem::remove(folder_.file("scans/poses.txt"));
+  placed.in_world = true;
+  for (const std::string& report : {posed_report, formatReport(convertOwn(placed))}) {
+    EXPECT_NE(report.find("note: no HEIGHT: it is taken as 1 (2 clouds)"), std::string::npos);
+    EXPECT_NE(report.find("note: VIEWPOINT has only zeros"), std::string::npos);
+    EXPECT_NE(report.find("note: field X is taken for x (2 clouds)"), std::string::npos) << report;
+  }
+}
+
 TEST_F(OwnFilesConversion, PassesOverNoOptionInSilence) {
   write("000000.ply", kPly);
   write("poses.txt", matrixRow(0) + "\n");

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "pcrb_core/point_cloud.hpp"
@@ -29,6 +30,7 @@ struct SensorScan {
   Transform viewpoint = Transform::Identity();  ///< of a PCD
   bool is_viewpoint_known = false;              ///< as DatasetCloud's
   PointCounts counts;
+  std::vector<std::string> notes;  ///< of the reader: what it took although it is odd
 
   /// Counts a point and keeps it if it is one.
   /// @return  whether it was kept
