@@ -1,3 +1,4 @@
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,10 @@ py::dict readPcd(const std::string& path, int threads) {
   return result;
 }
 
-void writePcd(const std::string& path, const Array& points, const Rows& viewpoint) {
+void writePcd(const std::string& path, const Array& points, const std::optional<Rows>& viewpoint) {
   pcrb::DatasetCloud cloud = toCloud(points);
-  cloud.viewpoint = pcrb::requireRigid(viewpoint);
+  cloud.is_viewpoint_known = viewpoint.has_value();  // even if it is the identity
+  if (viewpoint) cloud.viewpoint = pcrb::requireRigid(*viewpoint);
   pcrb::writePcd(path, cloud);
 }
 

@@ -108,7 +108,7 @@ def write_pcd(path, cloud, viewpoint=None):
 
     Raises InvalidFile if it cannot be written completely, InvalidProblem for a point that is not finite.
     """
-    rows = np.eye(4)[:3] if viewpoint is None else _rows(viewpoint, 'viewpoint')
+    rows = None if viewpoint is None else _rows(viewpoint, 'viewpoint')
     _pcrb.write_pcd(os.fsencode(path), _points(cloud, 'cloud'), rows)
 
 

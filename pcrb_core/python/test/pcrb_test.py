@@ -114,6 +114,12 @@ class FileTest(unittest.TestCase):
         self.assertIsNone(read['intensity'])
         self.assertEqual(read['dropped_non_finite'], 0)
 
+    def test_a_viewpoint_that_is_the_identity_is_known_and_none_is_not(self):
+        pcrb.write_pcd(self.folder / 'a.pcd', some_points(), np.eye(4))
+        np.testing.assert_array_equal(pcrb.read_pcd(self.folder / 'a.pcd')['viewpoint'], np.eye(4))
+        pcrb.write_pcd(self.folder / 'b.pcd', some_points())
+        self.assertIsNone(pcrb.read_pcd(self.folder / 'b.pcd')['viewpoint'])
+
     def test_a_defect_names_file_and_line(self):
         path = self.folder / 'broken.pcd'
         path.write_text('VERSION 0.7\nFIELDS x y z\nSIZE 4 4\n')
