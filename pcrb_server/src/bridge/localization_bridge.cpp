@@ -26,6 +26,8 @@ constexpr std::uint32_t kResultQueue = 1000;
 
 }  // namespace
 
+LocalizationBridge::ServedProblem::ServedProblem() = default;
+
 LocalizationBridge::LocalizationBridge(const BridgeParameters& parameters,
                                        ShutdownRequest& shutdown)
     : parameters_(parameters),

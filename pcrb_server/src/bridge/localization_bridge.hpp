@@ -50,6 +50,8 @@ class LocalizationBridge {
 
   /// What belongs to one problem, and ends with it.
   struct ServedProblem {
+    ServedProblem();  ///< not implicit, so that clang takes it for std::optional in this class
+
     pcrb_msgs::ProblemConstPtr message;
     sensor_msgs::PointCloud2ConstPtr target;  ///< from the end of kWaitForMap on
     SensorMounting mounting;
