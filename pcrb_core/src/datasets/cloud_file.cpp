@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "datasets/record_length.hpp"
 #include "datasets/records.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/foreign_data.hpp"
@@ -40,52 +40,6 @@ SensorScan scanOfPcd(std::string_view bytes, OriginPoints origin, const std::str
   return scan;
 }
 
-/// Records of another length make numbers that no lidar gives.
-void requirePossible(const SensorScan& scan, std::size_t fields, const std::string& name) {
-  constexpr double kReach = 1000.0;  // m
-  constexpr std::size_t kFew = 10;
-  const auto impossible = static_cast<std::size_t>(std::count_if(
-      scan.points.begin(), scan.points.end(),
-      [](const Eigen::Vector3d& point) { return point.lpNorm<Eigen::Infinity>() > kReach; }));
-  const std::size_t wrong = impossible + scan.counts.non_finite;
-  if (impossible == 0 || wrong <= std::max(kFew, scan.counts.read / 100)) return;
-  throw InvalidFile(name, 0,
-                    std::to_string(wrong) + " of " + std::to_string(scan.counts.read) +
-                        " records with a coordinate beyond 1 km or that is not finite",
-                    "records of " + std::to_string(fields) +
-                        " float32 numbers (x y z first): are these longer or shorter? "
-                        "(--bin-fields)");
-}
-
-/// Whether a number is whole in all records, if they have so many: a ring, a line, an intensity.
-bool hasWholeNumber(std::string_view bytes, std::size_t fields) {
-  const std::size_t length = fields * sizeof(float);
-  for (std::size_t offset = 0; offset != length; offset += sizeof(float)) {
-    std::size_t at = offset;
-    for (; at < bytes.size(); at += length) {
-      const double number = loadNumber(bytes.data() + at, RecordField{}, false);
-      if (number != std::floor(number)) break;
-    }
-    if (at >= bytes.size()) return true;
-  }
-  return false;
-}
-
-/// In records of another length than the real one, all numbers of all columns are mixed.
-void requireNoOtherLength(std::string_view bytes, std::size_t fields, const std::string& name) {
-  constexpr std::size_t kFewBytes = 1000;
-  if (bytes.size() < kFewBytes || hasWholeNumber(bytes, fields)) return;
-  for (std::size_t other = 3; other <= 8; ++other) {
-    if (bytes.size() % (other * sizeof(float)) != 0 || !hasWholeNumber(bytes, other)) continue;
-    throw InvalidFile(name, 0,
-                      "a column of whole numbers, as of rings, if records have " +
-                          std::to_string(other) + " float32 numbers, and none if they have " +
-                          std::to_string(fields),
-                      "records of " + std::to_string(fields) +
-                          " numbers (x y z first): try --bin-fields " + std::to_string(other));
-  }
-}
-
 SensorScan parseBin(std::string_view bytes, const CloudFileOptions& options,
                     const std::string& name) {
   requireData(bytes, name);
@@ -99,8 +53,7 @@ SensorScan parseBin(std::string_view bytes, const CloudFileOptions& options,
                           std::to_string(options.bin_fields) + " float32 numbers (--bin-fields)");
   }
   SensorScan scan = readRecords(bytes, bytes.size() / layout.length, layout, options.origin, name);
-  requirePossible(scan, options.bin_fields, name);
-  requireNoOtherLength(bytes, options.bin_fields, name);
+  requireLikelyLength(bytes, options.bin_fields, scan, name);
   return scan;
 }
 

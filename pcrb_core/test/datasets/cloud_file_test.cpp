@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
+#include "pcrb_core/random.hpp"
 #include "support/expect_error.hpp"
 
 namespace pcrb {
@@ -148,6 +151,47 @@ std::string recordsWith(const std::vector<float>& others) {
     for (const float other : others) bytes += bytesOf<float>({other + place});
   }
   return bytes;
+}
+
+/// A scan of 3,000 points on the ground and on walls, x and y about 0, with numbers like these.
+std::string scanOf(const std::function<std::vector<float>(const Eigen::Vector3f&)>& record) {
+  Random random(5);
+  std::string bytes;
+  for (int i = 0; i != 3000; ++i) {
+    const double angle = random.uniform(0.0, 6.28);
+    const double range = random.uniform(3.0, 40.0);
+    const bool is_wall = random.uniform(0.0, 3.0) < 1.0;
+    const double z = -1.7 + (is_wall ? random.uniform(0.0, 4.7) : random.uniform(-0.02, 0.02));
+    bytes += bytesOf<float>(
+        record(Eigen::Vector3d(range * std::cos(angle), range * std::sin(angle), z).cast<float>()));
+  }
+  return bytes;
+}
+
+TEST(CloudFile, ReadsNoRecordsOfAnotherLengthWhoseColumnsAreMixed) {
+  const auto read = [](const std::string& bytes, std::size_t fields) {
+    CloudFileOptions options;
+    options.bin_fields = fields;
+    return parse(bytes, "0.bin", options).points.size();
+  };
+  using Point = Eigen::Vector3f;
+  const auto length3 = scanOf([](const Point& p) {
+    return std::vector<float>{p.x(), p.y(), p.z()};
+  });
+  const auto length4 = scanOf([](const Point& p) {
+    return std::vector<float>{p.x(), p.y(), p.z(), 0.01F * p.norm()};
+  });
+  const auto length5 = scanOf([](const Point& p) {
+    return std::vector<float>{p.x(), p.y(), p.z(), 0.01F * p.norm(), 0.1F * p.x() * p.x()};
+  });
+  EXPECT_EQ(read(length3, 3), 3000u);
+  EXPECT_EQ(read(length4, 4), 3000u);
+  EXPECT_EQ(read(length5, 5), 3000u);
+  PCRB_EXPECT_ERROR(InvalidFile, read(length3, 4), "try --bin-fields 3");
+  PCRB_EXPECT_ERROR(InvalidFile, read(length3, 5), "try --bin-fields 3");
+  PCRB_EXPECT_ERROR(InvalidFile, read(length4, 3), "try --bin-fields 4");
+  PCRB_EXPECT_ERROR(InvalidFile, read(length4, 5), "try --bin-fields 4");
+  PCRB_EXPECT_ERROR(InvalidFile, read(length5, 4), "try --bin-fields 5");
 }
 
 TEST(CloudFile, ReadsNoRecordsWithRingsAsShorterOnes) {
