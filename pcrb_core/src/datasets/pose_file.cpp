@@ -1,5 +1,6 @@
 #include "pcrb_core/datasets/pose_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -16,44 +17,6 @@ namespace {
 using Numbers = std::vector<double>;
 
 constexpr std::size_t kMatrix = 12;  ///< numbers of the first three rows
-
-/// The next line that is neither blank nor a comment.
-bool nextPoseRow(LineReader& reader, std::string_view& line) {
-  while (reader.nextRow(line)) {
-    line = trimmed(line);
-    if (line.front() != '#') return true;
-  }
-  return false;
-}
-
-/// Words of a line, by commas if it has any.
-std::vector<std::string_view> wordsOf(std::string_view line) {
-  std::vector<std::string_view> words;
-  if (line.find(',') == std::string_view::npos) {
-    splitAtBlanks(line, words);
-    return words;
-  }
-  splitAt(',', line, words);
-  if (words.back().empty()) words.pop_back();  // a comma at the end
-  return words;
-}
-
-/// A row for a message.
-std::string quoted(const std::vector<std::string_view>& words, std::string_view line) {
-  return inQuotes(line) + " (" + std::to_string(words.size()) + " fields)";
-}
-
-/// The numbers of all words from one on.
-Numbers requireFinite(const LineReader& reader, const std::vector<std::string_view>& words,
-                      std::size_t first, std::size_t count, const std::string& expected) {
-  Numbers numbers;
-  for (std::size_t i = first; i != first + count; ++i) {
-    const auto number = parseDouble(words[i]);
-    if (!number || !std::isfinite(*number)) reader.fail(inQuotes(words[i]), expected);
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
 
 /// The rows of one of the formats without names, below each other.
 class Rows {
@@ -146,7 +109,7 @@ class Rows {
 
   void require(bool holds, const std::vector<std::string_view>& words, std::string_view line,
                const std::string& expected) const {
-    if (!holds) reader_.fail(quoted(words, line), expected);
+    if (!holds) reader_.fail(quoted(words, line), expected + adviceOnSeparators(line));
   }
 
   Stamp stampOf(std::string_view word) {
@@ -176,7 +139,8 @@ PoseFormat formatOfRow(const LineReader& reader, std::string_view line) {
   const bool has_commas = line.find(',') != std::string_view::npos;
   if (!isNumber(words.front())) {
     if (has_commas) return PoseFormat::kCsv;
-    reader.fail(quoted(words, line), "a row of numbers (tum, kitti, log) or of names with commas");
+    reader.fail(quoted(words, line), "a row of numbers (tum, kitti, log) or of names with commas" +
+                                         adviceOnSeparators(line));
   }
   if (has_commas) return words.size() == 1 + kMatrix ? PoseFormat::kKaist : PoseFormat::kEuroc;
   switch (words.size()) {
@@ -191,7 +155,8 @@ PoseFormat formatOfRow(const LineReader& reader, std::string_view line) {
       return PoseFormat::kKitti;
     default:
       reader.fail(quoted(words, line),
-                  "8 (tum), 12 (kitti) or 3 (log) numbers, or commas (euroc, csv)");
+                  "8 (tum), 12 (kitti) or 3 (log) numbers, or commas (euroc, csv)" +
+                      adviceOnSeparators(line));
   }
 }
 
@@ -205,6 +170,19 @@ PoseFormat findFormat(std::string_view text, const std::string& name) {
     if (hasPoseColumns(line)) return PoseFormat::kCsv;
   }
   throw InvalidFile(name, 0, "no pose", "rows of a trajectory (tum, kitti, euroc, log, csv)");
+}
+
+/// A robot that drives turns about z; with w first, read as x, it seems to roll.
+bool seemsToRoll(const std::vector<FilePose>& poses) {
+  constexpr double kSmall = 0.2;
+  constexpr double kLarge = 0.5;
+  double largest = 0.0;
+  for (const FilePose& pose : poses) {
+    const Eigen::Quaterniond q(pose.T_world_body.linear());
+    if (std::abs(q.y()) > kSmall || std::abs(q.z()) > kSmall) return false;
+    largest = std::max(largest, std::abs(q.x()));
+  }
+  return largest > kLarge;
 }
 
 PoseKey keyOf(PoseFormat format) {
@@ -248,6 +226,11 @@ PoseFile parsePoseFile(std::string_view text, const std::string& name,
   }
   if (file.poses.empty()) {
     throw InvalidFile(name, 0, "no pose", std::string("rows of ") + toString(file.format));
+  }
+  if (file.format == PoseFormat::kTum && seemsToRoll(file.poses)) {
+    file.notes.emplace_back(
+        "all rotations are about x, as of a robot that rolls over: is w first in the quaternions? "
+        "(--pose-format euroc: w first)");
   }
   return file;
 }

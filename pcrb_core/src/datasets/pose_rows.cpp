@@ -8,6 +8,50 @@
 
 namespace pcrb {
 
+bool nextPoseRow(LineReader& reader, std::string_view& line) {
+  while (reader.nextRow(line)) {
+    line = trimmed(line);
+    if (line.front() != '#') return true;
+  }
+  return false;
+}
+
+std::vector<std::string_view> wordsOf(std::string_view line) {
+  std::vector<std::string_view> words;
+  if (line.find(',') == std::string_view::npos) {
+    splitAtBlanks(line, words);
+    return words;
+  }
+  splitAt(',', line, words);
+  if (words.back().empty()) words.pop_back();  // a comma at the end
+  return words;
+}
+
+std::string quoted(const std::vector<std::string_view>& words, std::string_view line) {
+  return inQuotes(line) + " (" + std::to_string(words.size()) + " fields)";
+}
+
+std::string adviceOnSeparators(std::string_view line) {
+  const bool has_semicolons = line.find(';') != std::string_view::npos;
+  return has_semicolons ? ", separated by blanks or commas, with decimal points" : "";
+}
+
+std::vector<double> requireFinite(const LineReader& reader,
+                                  const std::vector<std::string_view>& words, std::size_t first,
+                                  std::size_t count, const std::string& expected) {
+  std::vector<double> numbers;
+  for (std::size_t i = first; i != first + count; ++i) {
+    const auto number = parseDouble(words[i]);
+    if (!number || !std::isfinite(*number)) {
+      const bool has_blank = words[i].find(' ') != std::string_view::npos;
+      reader.fail(inQuotes(words[i]),
+                  expected + (has_blank ? " between commas, with a decimal point" : ""));
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 Transform requireQuaternionPose(const LineReader& reader, const Eigen::Vector3d& translation,
                                 const Eigen::Quaterniond& rotation) {
   // Four decimals leave a norm within 2e-4 of 1; anything far from it is no rotation.

@@ -9,6 +9,24 @@
 
 namespace pcrb {
 
+/// The next line that is neither blank nor a comment.
+bool nextPoseRow(LineReader& reader, std::string_view& line);
+
+/// Words of a line, by commas if it has any.
+std::vector<std::string_view> wordsOf(std::string_view line);
+
+/// A row for a message.
+std::string quoted(const std::vector<std::string_view>& words, std::string_view line);
+
+/// What to say of a row with the separators of a spreadsheet in other languages than English.
+std::string adviceOnSeparators(std::string_view line);
+
+/// The numbers of `count` words from one on.
+/// @throws InvalidFile  for the reader's line if one is no finite number.
+std::vector<double> requireFinite(const LineReader& reader,
+                                  const std::vector<std::string_view>& words, std::size_t first,
+                                  std::size_t count, const std::string& expected);
+
 /// The pose of a quaternion, which is normalised.
 /// @throws InvalidFile  for the reader's line if its norm is far from 1.
 Transform requireQuaternionPose(const LineReader& reader, const Eigen::Vector3d& translation,

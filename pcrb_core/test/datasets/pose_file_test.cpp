@@ -55,6 +55,23 @@ TEST(PoseFile, SaysThatItTakesCommasForEurocsOrderWhereTimestampsAreSeconds) {
   EXPECT_TRUE(tum.notes.empty());
 }
 
+TEST(PoseFile, SuspectsThatWIsFirstWhereARobotWouldRollOver) {
+  const PoseFile w_first = parse("1.5 0 0 0 1 0 0 0\n2.5 1 2 3 0.92388 0 0.01 0.38268\n");
+  ASSERT_EQ(w_first.notes.size(), 1u);
+  EXPECT_NE(w_first.notes[0].find("is w first in the quaternions?"), std::string::npos);
+  for (const char* rows : {"1.5 0 0 0 0 0 0 1\n2.5 1 2 3 0 0.01 0.38268 0.92388\n",
+                           "1.5 0 0 0 -0.5 0.5 -0.5 0.5\n2.5 0 0 0 0.7071068 0 0 0.7071068\n"}) {
+    EXPECT_TRUE(parse(rows).notes.empty()) << rows << "a robot that drives, or an optical frame";
+  }
+}
+
+TEST(PoseFile, NamesSemicolonsAndDecimalCommas) {
+  PCRB_EXPECT_ERROR(InvalidFile, parse("1.5;1;2;3;0;0;0;1\n"), "separated by blanks or commas");
+  PCRB_EXPECT_ERROR(InvalidFile, parse("timestamp;x;y;z\n"), "separated by blanks or commas");
+  PCRB_EXPECT_ERROR(InvalidFile, parse("1,5 1,25 2,5 3,5 0,0 0,0 0,0 1,0\n"),
+                    "found '5 1', expected a number between commas, with a decimal point");
+}
+
 TEST(PoseFile, ReadsKittisFormatWithAndWithoutNumbersAndAFourthRow) {
   for (const std::string& row : {kMatrix, "0 " + kMatrix, kMatrix + " 0 0 0 1"}) {
     const PoseFile file = parse(row + "\n");
