@@ -129,6 +129,44 @@ class BombsTest(TestCase):
                      self.root, '--data-set', 'mine', '--sequence', 'yard', '--threads', '8', '--overlap-distance', '1',
                      '--voxel-leaf', '1')
 
+    def convert(self, name, pattern):
+        self.explode(name, pattern, 'convert_log', self.folder, '--root', self.root, '--data-set', 'mine', '--sequence', 'yard',
+                     '--overlap-distance', '1', '--voxel-leaf', '1')
+        self.clear()
+
+    def test_data_of_ones_own(self):
+        """Clouds of other formats than PCD, and what lies beside them."""
+        def write(name, head, size=0, rows=b''):
+            with open(os.path.join(self.folder, 'poses.txt'), 'w') as poses:
+                poses.write('1000.0 0 0 0 0 0 0 1\n')
+            with open(os.path.join(self.folder, name), 'wb') as file:
+                file.write(head + rows)
+                file.truncate(max(size, len(head) + len(rows)))
+        vertices = 'ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\nend_header\n'
+        write('1000.000000.ply', vertices.format('binary_little_endian', 10**15).encode(), 1000)
+        self.convert('PLY, claims 10^15 points', 'bytes')
+        write('1000.000000.ply', vertices.format('ascii', 10**7).encode(), rows=b'0 0 0\n' * 10**7)
+        self.convert('PLY, 10 million rows of text', 'takes .* MB of memory, expected')
+        npy = "{'descr': '<f4', 'fortran_order': False, 'shape': (1000000000000, 3), }".ljust(117).encode() + b'\n'
+        write('1000.000000.npy', b'\x93NUMPY\x01\x00' + struct.pack('<H', len(npy)) + npy, 1000)
+        self.convert('npy, claims 10^12 points', 'bytes')
+        write('1000.000000.bin', b'', 12 * 10**9)
+        self.convert('bin of 12 GB of holes', 'takes .* MB of memory, expected')
+        write('1000.000000.bin', b'', rows=bytes(16))
+        with open(os.path.join(self.folder, 'poses.txt'), 'ab') as poses:
+            poses.truncate(12 * 10**9)
+        self.convert('trajectory of 12 GB of holes', 'takes .* MB of memory, expected')
+
+    def test_a_yaml_of_aliases(self):
+        """A text of a kilobyte that stands for 10^9 entries is none of a data set's parameters."""
+        pcd(os.path.join(self.folder, 'a.pcd'), 1, 'ascii', b'0 0 0\n')
+        with open(os.path.join(self.root, 'rooms', 'dataset.yaml'), 'w') as file:
+            file.write('a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n')
+            for i in range(1, 9):
+                file.write(f'a{i}: &a{i} [{", ".join([f"*a{i - 1}"] * 10)}]\n')
+            file.write('voxel_leaf: *a8\n')
+        self.explode('YAML, 10^9 entries by aliases', r'dataset\.yaml', 'check_dataset', self.root)
+
     def test_archives(self):
         archive = os.path.join(self.folder, 'yard.tgz')
         with tarfile.open(archive, 'w:gz') as tgz:
