@@ -1,6 +1,7 @@
 """pcrb probe: starts a localization node, looks at what it takes and says, and prints the recipe that fits.
 
-The node gets one map, one initial pose and ten scans of a made-up room (probe_robot); probe_recipe judges what it did.
+A robot (probe_robot) gives it one map, one initial pose and ten scans of a made-up room (probe_room), and notes what it says; probe_recipe
+judges that.
 """
 import contextlib
 import dataclasses

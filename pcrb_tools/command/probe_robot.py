@@ -1,4 +1,4 @@
-"""The robot of pcrb probe: a room, its map, ten scans; it notes all that a localization node says to them."""
+"""The robot of pcrb probe: it shows a localization node a map and ten scans, and notes all that the node says to them."""
 import dataclasses
 import sys
 import threading
@@ -11,7 +11,8 @@ import rospy
 import tf2_msgs.msg
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu, PointCloud2, PointField
+from probe_room import GUESS, TRUTH, cloud_message, fill_pose, position_of, room, scan_at_truth, write_pcd
+from sensor_msgs.msg import Imu
 
 CLOUD, INITIAL_POSE = 'sensor_msgs/PointCloud2', 'geometry_msgs/PoseWithCovarianceStamped'
 POSES = {'geometry_msgs/PoseStamped': PoseStamped, INITIAL_POSE: PoseWithCovarianceStamped, 'nav_msgs/Odometry': Odometry,
@@ -22,7 +23,6 @@ MASTER_LIMIT = 120.0  # s
 CONNECT_LIMIT = 20.0  # s
 SENSOR = 'sensor'
 OWN = '/pcrb_probe'
-OFFSET = (0.3, -0.2, 0.05, 0.08)  # x y z in m and yaw in rad: of the initial pose from the truth
 
 
 @dataclasses.dataclass
@@ -60,52 +60,6 @@ class Observation:
     map_frame: str = 'map'
     has_died: bool = False
     map_file: str = ''
-
-
-def room(count=6000):
-    """Points on floor, four walls and two boxes of a room of 12 x 8 x 3 m, the same each time."""
-    random = np.random.RandomState(7)
-    sides = [((-6, -4, 0), (12, 0, 0), (0, 8, 0)), ((-6, -4, 0), (12, 0, 0), (0, 0, 3)), ((-6, 4, 0), (12, 0, 0), (0, 0, 3)),
-             ((-6, -4, 0), (0, 8, 0), (0, 0, 3)), ((6, -4, 0), (0, 8, 0), (0, 0, 3)), ((2, 1, 0), (1.5, 0, 0), (0, 0, 1.8)),
-             ((2, 1, 0), (0, 2, 0), (0, 0, 1.8)), ((-4, -2.5, 0), (0, 1.2, 0), (0, 0, 1.2)), ((-4, -2.5, 0), (2, 0, 0), (0, 0, 1.2))]
-    areas = np.array([np.linalg.norm(np.cross(a, b)) for _, a, b in sides])
-    chosen = random.choice(len(sides), count, p=areas / areas.sum())
-    corner, a, b = (np.array([side[i] for side in sides], float)[chosen] for i in range(3))
-    return corner + a * random.rand(count, 1) + b * random.rand(count, 1)
-
-
-def planar(x, y, z, yaw):
-    T = np.eye(4)
-    T[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
-    T[:3, 3] = x, y, z
-    return T
-
-
-TRUTH = planar(-1.0, 0.5, 1.2, 0.4)  # T_map_base
-GUESS = TRUTH @ planar(*OFFSET)
-
-
-def cloud_message(points, frame, stamp):
-    message = PointCloud2(height=1, width=len(points), point_step=16, row_step=16 * len(points), is_dense=True)
-    message.header.frame_id, message.header.stamp = frame, stamp
-    message.fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate(('x', 'y', 'z', 'intensity'))]
-    message.data = np.hstack([points, np.zeros((len(points), 1))]).astype('<f4').tobytes()
-    return message
-
-
-def fill_pose(pose, T):
-    yaw = np.arctan2(T[1, 0], T[0, 0])
-    pose.position.x, pose.position.y, pose.position.z = T[:3, 3]
-    pose.orientation.z, pose.orientation.w = np.sin(yaw / 2), np.cos(yaw / 2)
-
-
-def position_of(message):
-    """Position and orientation of any of the types of poses, as seven numbers."""
-    pose = message.transform if isinstance(message, TransformStamped) else message.pose
-    pose = pose.pose if hasattr(pose, 'pose') else pose
-    p = pose.translation if hasattr(pose, 'translation') else pose.position
-    q = pose.rotation if hasattr(pose, 'rotation') else pose.orientation
-    return np.array([p.x, p.y, p.z, q.x, q.y, q.z, q.w])
 
 
 class Robot:
@@ -203,9 +157,7 @@ class Robot:
         time.sleep(2.0)
         self.send_initial_pose()
         time.sleep(1.0)
-        points = room()
-        near = points[np.linalg.norm(points - TRUTH[:3, 3], axis=1) < 9.0][::2]
-        scan = (near - TRUTH[:3, 3]) @ TRUTH[:3, :3]
+        scan = scan_at_truth()
         for _ in range(SCANS):
             if not is_running():
                 return
@@ -299,13 +251,6 @@ class Robot:
         """The scan that a stamp is of, else the newest one that is not after it, else the newest one."""
         before = [scan for scan, sent in enumerate(self.stamps) if sent < stamp + probe_recipe.EXACT]
         return before[-1] if before else len(self.stamps) - 1
-
-
-def write_pcd(path, points):
-    with open(path, 'w', encoding='ascii') as file:
-        file.write('# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n'
-                   f'WIDTH {len(points)}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {len(points)}\nDATA ascii\n')
-        file.writelines(f'{x:.4f} {y:.4f} {z:.4f}\n' for x, y, z in points)
 
 
 def wait_for(condition, limit, period=0.1):
