@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -13,6 +15,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/pcd_memory.hpp"
 #include "pcrb_core/io/pcd_output.hpp"
 #include "pcrb_core/io/text.hpp"
 
@@ -114,13 +117,45 @@ double pointTimeScale(std::string_view field, bool is_float) {
   return is_float ? 1.0 : kNanosecond;
 }
 
-std::optional<Transform> readViewpoint(const std::string& path) {
+namespace {
+
+/// Enough for any header.
+std::string startOfFile(const std::string& path) {
   constexpr std::size_t kLongestHeader = 1 << 16;  // bytes
   std::string start(kLongestHeader, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (file.bad() || !file.is_open()) throw InvalidFile(path, "cannot be read");
   start.resize(static_cast<std::size_t>(file.gcount()));
+  return start;
+}
+
+}  // namespace
+
+std::size_t memoryOfPackedPcd(std::string_view start) {
+  std::array<std::uint32_t, 2> sizes{};  // packed, unpacked
+  try {
+    LineReader lines(start, "");
+    const PcdHeader header = readPcdHeader(lines, true);
+    if (header.data != PcdData::kBinaryCompressed || lines.rest().size() < sizeof(sizes)) return 0;
+    std::memcpy(sizes.data(), lines.rest().data(), sizeof(sizes));
+    const std::size_t unpacked = sizes[1];
+    return unpacked + 2 * pointBytes(header, std::min(header.points, unpacked));
+  } catch (const InvalidFile&) {
+    return 0;
+  }
+}
+
+std::size_t memoryOfPackedPcdFile(const std::string& path) {
+  try {
+    return memoryOfPackedPcd(startOfFile(path));
+  } catch (const InvalidFile&) {
+    return 0;
+  }
+}
+
+std::optional<Transform> readViewpoint(const std::string& path) {
+  const std::string start = startOfFile(path);
   LineReader lines(start, path);
   const PcdHeader header = readPcdHeader(lines, false);
   DatasetCloud cloud;

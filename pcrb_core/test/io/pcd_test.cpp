@@ -13,6 +13,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
+#include "pcrb_core/io/pcd_memory.hpp"
 #include "support/pcd_text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -176,6 +177,22 @@ TEST(Pcd, ReadsCompressedDataWithAndWithoutItsPadding) {
   EXPECT_EQ(parsePcd(pcd.text()).points, kTwoPoints);
   pcd.body = bytesOf<std::uint32_t>({29, 28}) + char(27) + x + "abcd" + yz;
   EXPECT_EQ(parsePcd(pcd.text()).points, kTwoPoints);
+}
+
+TEST(Pcd, SaysWhatAPackedCloudTakesBeforeItIsUnpacked) {
+  PcdText pcd;
+  pcd.points = pcd.width = "1000000";
+  pcd.body = bytesOf<std::uint32_t>({140000, 12000000});
+  EXPECT_EQ(memoryOfPackedPcd(pcd.text()), 0u);  // DATA ascii
+  pcd.data = "binary_compressed";
+  EXPECT_EQ(memoryOfPackedPcd(pcd.text()), 12000000u + 2 * 24000000u);
+  pcd.points = pcd.width = "1000000000000";  // a lie: no more points than bytes
+  EXPECT_EQ(memoryOfPackedPcd(pcd.text()), 12000000u * (1 + 2 * 24));
+  EXPECT_EQ(memoryOfPackedPcd("no PCD\n"), 0u);
+  const pcrb_test::TemporaryFolder folder;
+  EXPECT_EQ(memoryOfPackedPcdFile(folder.file("none.pcd")), 0u);
+  std::ofstream(folder.file("a.pcd"), std::ios::binary) << pcd.text();
+  EXPECT_EQ(memoryOfPackedPcdFile(folder.file("a.pcd")), memoryOfPackedPcd(pcd.text()));
 }
 
 TEST(Pcd, IgnoresZerosThatFillUpAPage) {

@@ -1,5 +1,6 @@
 #include "conversion/conversion.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -10,6 +11,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/pcd_memory.hpp"
 #include "pcrb_core/problem/problem.hpp"
 
 namespace pcrb_tools {
@@ -23,10 +25,12 @@ constexpr const char* kConverterVersion = "2";
 constexpr int kCommitThreads = 4;
 
 /// Waits for the memory that a scan's bytes, points and written cloud take together.
-pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t bytes) {
-  constexpr std::size_t kExpansion = 6;  // of a binary scan, which expands most
+/// @param unpacked  bytes that are packed in it
+pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t bytes,
+                                           std::size_t unpacked) {
+  constexpr std::size_t kExpansion = 6;  // of a binary scan, which expands most if none is packed
   pcrb::MemoryBudget& budget = pcrb::MemoryBudget::ofProcess();
-  const std::size_t needed = kExpansion * bytes;
+  const std::size_t needed = std::max(kExpansion * bytes, bytes + unpacked);
   if (needed <= budget.limit()) return budget.take(needed);
   const auto [found, expected] = pcrb::describeExcess("a scan", needed, budget.limit());
   throw pcrb::InvalidFile(path, 0, found, expected);
@@ -36,12 +40,15 @@ pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t 
 
 pcrb::MemoryBudget::Share takeMemoryOfFiles(const std::vector<std::string>& files) {
   std::size_t bytes = 0;
+  std::size_t unpacked = 0;
   for (const std::string& file : files) {
     std::error_code is_none;  // a regular file: who reads it will say so
     const std::uintmax_t size = std::filesystem::file_size(file, is_none);
-    if (!is_none) bytes += size;
+    if (is_none) continue;
+    bytes += size;
+    unpacked += pcrb::memoryOfPackedPcdFile(file);
   }
-  return takeMemoryOfScan(files.front(), bytes);
+  return takeMemoryOfScan(files.front(), bytes, unpacked);
 }
 
 void announcePoses(const pcrb::Trajectory& trajectory, Conversion& conversion,
@@ -87,8 +94,8 @@ void convertFileScans(const LogFiles& files, std::vector<FileScan> scans, Conver
   files.readArchived(indices, [&](std::size_t index, std::string bytes) {
     FileScan& scan = in_archives.at(index);
     const std::string path = files.all()[index].path();
-    const auto share =
-        std::make_shared<pcrb::MemoryBudget::Share>(takeMemoryOfScan(path, bytes.size()));
+    const auto share = std::make_shared<pcrb::MemoryBudget::Share>(
+        takeMemoryOfScan(path, bytes.size(), pcrb::memoryOfPackedPcd(bytes)));
     const auto shared = std::make_shared<const std::string>(std::move(bytes));
     conversion.add(scan.cloud_name, [share, shared, path, make = std::move(scan.make)] {
       return make(*shared, path);
