@@ -99,8 +99,9 @@ Stamp requireStamp(const LineReader& reader, std::string_view word, Stamp unit) 
                            ? std::optional<std::int64_t>(0)
                            : parseInt(text[e + 1] == '+' ? text.substr(e + 2) : text.substr(e + 1));
     if (!given) reader.fail(inQuotes(word), "a timestamp");
+    const Stamp units_in_second = kSecond / unit;
     const int power =
-        static_cast<int>(std::lround(std::log10(static_cast<double>(kSecond / unit))));
+        static_cast<int>(std::lround(std::log10(static_cast<double>(units_in_second))));
     text = text.substr(0, e) + "e" + std::to_string(*given - power);
   }
   const auto stamp = parseTimestamp(text);
