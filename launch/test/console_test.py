@@ -102,7 +102,8 @@ class ConsoleTest(TestCase):
             r'ill_mannered_localizer publishes the tf frame sensor \(in base_link\); or set `tf_base_scan: none` in bridge_parameters')
 
     def test_what_a_dying_node_printed_is_shown_and_that_it_is_started_anew(self):
-        self.assert_shown_before_a_result(
+        """In any order: these are the words of three processes."""
+        self.assert_ends_saying(
             self.localize(node=self.launch_file(DYING)), r'node under test: \[FATAL\] found no map_path',
             r'node under test: \[mine-1\] process has died, exit code 3', 'node_supervisor: the node under test has ended: it is started anew')
 
