@@ -21,11 +21,7 @@ py::dict readPcd(const std::string& path, int threads) {
   }
   py::dict result;
   result["points"] = toArray(cloud.points);
-  result["intensity"] = py::none();
-  if (!cloud.intensity.empty()) {
-    result["intensity"] = py::array_t<float>(static_cast<py::ssize_t>(cloud.intensity.size()),
-                                             cloud.intensity.data());
-  }
+  result["intensity"] = intensityArray(cloud.intensity);
   result["viewpoint"] = py::none();
   if (cloud.hasViewpoint()) {
     result["viewpoint"] = py::cast(Eigen::Matrix4d(cloud.viewpoint.matrix()));

@@ -29,6 +29,9 @@ pcrb::DatasetCloud toCloud(const Array& array);
 
 Array toArray(const std::vector<Eigen::Vector3d>& points);
 
+/// None for no values.
+py::object intensityArray(const std::vector<float>& values);
+
 pcrb::ProblemSelection selectionOf(const std::string& root,
                                    const std::vector<std::string>& sequences,
                                    const std::vector<std::string>& kinds, std::size_t subset,

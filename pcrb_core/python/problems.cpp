@@ -80,20 +80,6 @@ std::vector<std::size_t> selectSequences(
 
 }  // namespace
 
-pcrb::ProblemSelection selectionOf(const std::string& root,
-                                   const std::vector<std::string>& sequences,
-                                   const std::vector<std::string>& kinds, std::size_t subset,
-                                   std::uint64_t seed) {
-  pcrb::ProblemSelection selection;
-  selection.root = root;
-  selection.sequences = sequences;
-  selection.kinds.clear();
-  for (const std::string& kind : kinds) selection.kinds.push_back(pcrb::kindFromString(kind));
-  selection.subset = subset;
-  selection.seed = seed;
-  return selection;
-}
-
 void defineProblems(py::module& module) {
   module.def("read_problems", &readProblems);
   module.def("write_problems", &writeProblems);

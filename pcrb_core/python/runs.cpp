@@ -57,11 +57,6 @@ py::object cloudArray(const std::vector<float>& coordinates) {
   return py::array_t<float>(std::vector<py::ssize_t>{rows, 3}, coordinates.data());
 }
 
-py::object intensityArray(const std::vector<float>& values) {
-  if (values.empty()) return py::none();
-  return py::array_t<float>(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
 py::object nextProblem(pcrb::InProcessRun& run) {
   std::optional<pcrb::ClientProblem> problem;
   {
