@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "pcrb_core/io/text.hpp"
+
 namespace pcrb {
 
 namespace {
@@ -11,13 +13,6 @@ namespace {
 const std::set<std::string> kLaunchArguments{"map_topic",         "scan_topic", "pose_topic",
                                              "initialpose_topic", "map_frame",  "base_frame",
                                              "scan_frame",        "settle",     "restart"};
-
-template <typename Names>
-std::string listOfNames(const Names& names, const std::string& separator) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : separator) + name;
-  return text;
-}
 
 /// The topic of a map has that in its name, and that of scans has not.
 std::string likeliest(const std::map<std::string, std::string>& wanted, const RobotTopic& input) {
@@ -39,7 +34,7 @@ std::map<std::string, std::string> TopicGraph::wanted(const std::string& type) c
   }
   std::map<std::string, std::string> shown;
   for (const auto& [topic, names] : nodes) {
-    shown[topic] = topic + " (by " + listOfNames(names, " ") + ")";
+    shown[topic] = topic + " (by " + joined(names, " ") + ")";
   }
   return shown;
 }
@@ -61,7 +56,7 @@ std::string describeUntaken(const std::vector<RobotTopic>& untaken, const TopicG
     std::vector<std::string> topics;
     std::transform(wanted.begin(), wanted.end(), std::back_inserter(topics),
                    [](const auto& topic) { return topic.second; });
-    text += "; nodes wait for " + input.type + " on " + listOfNames(topics, ", ") + ": set " +
+    text += "; nodes wait for " + input.type + " on " + joined(topics) + ": set " +
             howToSet(input.parameter, likeliest(wanted, input)) +
             (wanted.size() > 1 ? " or so" : "");
   }
@@ -85,8 +80,7 @@ std::string adviceOnMounting(const std::string& base, const std::string& scan,
   std::vector<std::string> shown;
   std::copy_if(frames.begin(), frames.end(), std::back_inserter(shown),
                [](const std::string& frame) { return frame.rfind("pcrb_", 0) != 0; });
-  const std::string known =
-      shown.empty() ? "nothing is on tf" : "on tf are " + listOfNames(shown, " ");
+  const std::string known = shown.empty() ? "nothing is on tf" : "on tf are " + joined(shown, " ");
   return known + ": start what publishes the link, set " + howToSet("tf_base_scan", "static") +
          " if " + scan + " is where " + base + " is, or other frames (base_frame, scan_frame)";
 }
