@@ -55,9 +55,9 @@ Import importResults(const std::string& method, const std::string& path, const s
                      const std::map<std::string, std::string>& data_sets);
 
 /// Whether a text is a result file of the paper's authors: their command in a comment, then
-/// `id;initial_error;final_error;transformation` (with a number of iterations before the last one
-/// in newer ones).
-bool isAuthorsResult(std::string_view text);
+/// `id;initial_error;final_error;transformation` (in newer ones with a number of iterations before
+/// the last one, which the header may not name, or with a `status_code`: what is not `ok` failed).
+bool isAuthorsResult(std::string_view text, const std::string& path);
 
 /// Reads such a file, `<sequence>_<kind>_result.txt`.
 ///

@@ -164,7 +164,7 @@ class Reader {
 Import importResults(const std::string& method, const std::string& path, const std::string& format,
                      const DataSets& data_sets) {
   const pcrb::FileBytes file(path);
-  if (isAuthorsResult(file.text())) return importAuthorsResults(method, path, data_sets);
+  if (isAuthorsResult(file.text(), path)) return importAuthorsResults(method, path, data_sets);
   const FileName name = parseFileName(path, method, data_sets);
   pcrb::LineReader lines(file.text(), path);
   Reader reader(lines, name, data_sets);

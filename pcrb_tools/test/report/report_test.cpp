@@ -210,47 +210,6 @@ TEST_F(ReportTest, TellsMethodFromSequenceByKnownSequencesOrByTheNameGiven) {
                                    "mine box_met", "mine plain"}));
 }
 
-TEST_F(ReportTest, ImportsTheResultFilesOfThePapersAuthors) {
-  const std::string matrix = "1 0 0 0.5 0 1 0 0.25 0 0 1 -1e-3 0 0 0 1 ";
-  const std::string header = "id;initial_error;final_error;transformation\n";
-  fs::create_directories(folder_.file("FastGlobal"));
-  addFile("FastGlobal/plain_global_result.txt",
-          "# registration_from_features.py FastGlobal\n" + header + "4;7.9;0.5;" + matrix + "\n");
-  options_.imports = {
-      addFile("plain_local_result.txt", "#;prob_registration_l1 -r tester -m 10 \n" + header +
-                                            "12;0.5;0.25;25;" + matrix + "\n13;0.5;0.75;" + matrix +
-                                            "\r\n"),
-      "mine=" + addFile("my_yard_local_result.txt", header + "14;0.1;0.2;" + matrix),
-      folder_.file("FastGlobal/plain_global_result.txt")};
-  writeReportData(options_);
-  std::set<std::string> read;
-  for (const std::string kind : {"local", "global"}) {
-    for (auto& row : readCsv(options_.output + "/tables/" + kind + "_problems.csv")) {
-      read.insert(row["method"] + " " + row["sequence"] + " " + row["problem"] + " " +
-                  row["error"] + " " + row["misalignment"]);
-    }
-  }
-  EXPECT_EQ(read, (std::set<std::string>{"ppcr plain 12 0.25 0.5", "ppcr plain 13 0.75 0.5",
-                                         "mine my_yard 14 0.2 0.1", "FastGlobal plain 4 0.5 7.9"}));
-}
-
-TEST_F(ReportTest, RefusesFilesOfTheAuthorsWithADefectNamingFileAndLine) {
-  const std::string header = "#;x\nid;initial_error;final_error;transformation\n";
-  const auto expectRefusal = [&](const std::string& text, const std::string& message) {
-    options_.imports = {addFile("plain_local_result.txt", text)};
-    pcrb_test::expectError<pcrb::InvalidFile>([&] { writeReportData(options_); }, message);
-  };
-  expectRefusal(header, "found no row");
-  expectRefusal("#;x\n1;2;3;4\n", ":2: found '1;2;3;4'");
-  expectRefusal(header + "1;0.5;0.25\n", ":3: found 3 fields");
-  expectRefusal(header + "1;0.5;-nan;1 0\n", ":3: found '-nan'");
-  expectRefusal(header + "1;0.5;0.25;1 0 0 0 0 1\n", ":3: found a transformation of 6 numbers");
-  expectRefusal(header + ";0.5;0.25;1 0\n", ":3: found an empty field");
-  options_.imports = {addFile("plain.txt", header + "1;0.5;0.25;1 0\n")};
-  pcrb_test::expectError<pcrb::InvalidFile>([&] { writeReportData(options_); },
-                                            "<sequence>_local_result.txt");
-}
-
 TEST_F(ReportTest, TakesARunOfDoNothingForTheBaseline) {
   options_.runs = {addRun("good", 0.1), addRun("do_nothing", 1.0)};
   writeReportData(options_);
