@@ -14,6 +14,8 @@
 namespace pcrb_tools {
 namespace {
 
+using namespace std::string_literals;
+
 // What Python's pickle makes of ['tool', '-r 0.1', 'apartment/a.pcd'], then of two rows, with
 // protocols 2 and 5.
 constexpr const char* kProtocol2 =
@@ -79,10 +81,31 @@ TEST_F(PickledPairs, AreImportedWithTheirTranslationsAndRotations) {
   EXPECT_NEAR(pairs.rotations_deg[1], 11.478340954533572, 1e-9);  // 2 asin 0.1
 }
 
+TEST_F(PickledPairs, AreReadFromOlderProtocolsAndTuplesToo) {
+  // pickle.dumps(('tool', '-r'), 0), then of [(0.05, 3, -70000, 2**40, 0.0, 0.0, 0.0, 1.0)].
+  const std::string text =
+      "(Vtool\np0\nV-r\np1\ntp2\n."
+      "(lp0\n(F0.05\nI3\nI-70000\nL1099511627776L\nF0.0\nF0.0\nF0.0\nF1.0\ntp1\na.";
+  // The same with protocols 1 (a tuple of a mark, text of Python 2) and 2 (LONG1, TUPLE2).
+  const std::string numbers = std::string("G?\xa9\x99\x99\x99\x99\x99\x9aK\x03J") +
+                              "\x90\xee\xfe\xff" + "L1099511627776L\n";
+  const std::string zeros = "K\0K\0K\0K\x01"s;
+  const std::string protocol1 = "(U\x04toolU\x02-rt.](" + numbers + zeros + "ta.";
+  std::string protocol2 = "\x80\x02U\x04toolU\x02-r\x86.](" + numbers + zeros + "ta.";
+  protocol2.replace(protocol2.find("L1099511627776L\n"), 16, "\x8a\x06\0\0\0\0\0\x01"s);
+  for (const std::string& pickle : {text, protocol1, protocol2}) {
+    EXPECT_EQ(readPickledPairs(write(pickle)),
+              "misalignment_m,tx,ty,tz,qx,qy,qz,qw\n0.05,3,-70000,1099511627776,0,0,0,1\n");
+  }
+}
+
 TEST_F(PickledPairs, RefusesAPickleThatMakesAnythingElse) {
-  expectRefusal("cos\nsystem\n(S'true'\ntR.", "the opcode 99");              // GLOBAL
-  expectRefusal("\x80\x04\x8c\x02os\x8c\x06system\x93.", "the opcode 147");  // STACK_GLOBAL
-  expectRefusal("\x80\x02}q\x00.", "the opcode 125");                        // a dictionary
+  expectRefusal("cos\nsystem\n(S'true'\ntR.", "Python's 'os.system', which is not run");
+  expectRefusal("(S'true'\nios\nsystem\n.", "'os.system'");
+  expectRefusal("\x80\x04\x8c\x02os\x8c\x06system\x93.", "'os.system'");
+  expectRefusal("K\x01K\x02R.", "the opcode 82");      // REDUCE
+  expectRefusal("K\x01K\x02\x81.", "the opcode 129");  // NEWOBJ
+  expectRefusal("\x80\x02}q\x00.", "the opcode 125");  // a dictionary
 }
 
 TEST_F(PickledPairs, RefusesWhatIsCutOffOrOfAnotherShape) {
@@ -101,11 +124,11 @@ TEST_F(PickledPairs, RefusesWhatIsCutOffOrOfAnotherShape) {
       "].](]K\x01"
       "ae.",
       "a row of 1 numbers");
-  expectRefusal("].]e.", "no list before a mark");
+  expectRefusal("].]e.", "no mark");
   expectRefusal(
       "].K\x01K\x02"
       "a.",
-      "no list");
+      "something added to no list");
   expectRefusal(".", "nothing on the stack");
   expectRefusal("(.", "a mark");
   expectRefusal("h\x05.", "not remembered");
