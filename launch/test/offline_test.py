@@ -223,11 +223,14 @@ class OfflineTest(TestCase):
         self.assertRegex(summary, r'APE translation m +2 +0.500000')
         self.assertRegex(summary, r'APE rotation deg +2 +2.000000')
         self.assertNotIn('lost 0', summary)
+        self.assertIn('verdict: complete\n', summary)
         self.assertGreater(len(self.read('tracking/map.csv').splitlines()), 10)
         first_only = self.write('first.tum', text.splitlines()[0] + '\n')
         arguments = ('score_poses', '--sequence', self.data.folder('hall'), '--scans', self.path('scans.txt'), '--poses',
                      first_only, '--output', self.path('lost'))
-        self.assertRegex(self.tool(*arguments), r'lost 1 of 2 scans')
+        self.assert_tool_fails('more scans were lost than --max-lost 0 allows', *arguments)
+        self.assertRegex(self.tool(*arguments, '--max-lost', '0.5'),
+                         r'lost 1 of 2 scans(.|\n)*verdict: complete enough: no more lost than --max-lost 0.5')
         with open(self.path('lost', 'scans.csv'), newline='') as file:
             rows = list(csv.DictReader(file))
         held = maths.shifted_pose(self.data.viewpoints['hall', scans[0][1]], origin) @ offset
@@ -235,7 +238,8 @@ class OfflineTest(TestCase):
         points = self.data.clouds['hall', scans[1][1]] - origin
         self.assertEqual(rows[1]['error'], '')
         self.assertAlmostEqual(float(rows[1]['error_or_last_pose']), maths.error(points, held @ np.linalg.inv(truth)), places=5)
-        self.assert_tool_fails('more scans were lost', *arguments, '--max-lost', '0.4')
+        self.assert_tool_fails('more scans were lost than --max-lost 0.4 allows', *arguments, '--max-lost', '0.4')
+        self.assertIn('verdict: incomplete: more lost than --max-lost 0.4', self.read('lost/summary.txt'))
         with open(self.path('tracking', 'scans.csv'), newline='') as file:
             found = [float(row['error']) for row in csv.DictReader(file)]
         np.testing.assert_allclose(found, expected, atol=1e-6)

@@ -3,6 +3,7 @@
 
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/number.hpp"
 #include "scoring/scoring_tool.hpp"
 
 namespace {
@@ -49,8 +50,9 @@ void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) 
       ->check(CLI::PositiveNumber)
       ->needs(sequence)
       ->capture_default_str();
-  app.add_option("--max-lost", tracking.max_lost,
-                 "fraction of the scans that may be without a pose; more, and the exit status is 1")
+  app.add_option(
+         "--max-lost", tracking.max_lost,
+         "fraction of the scans that may be lost, without a pose; more, and the exit status is 1")
       ->check(CLI::Range(0.0, 1.0))
       ->needs(sequence)
       ->capture_default_str();
@@ -112,7 +114,8 @@ int score(Options& options) {
   options.tracking.poses = options.problems.poses;
   options.tracking.T_body_sensor = options.T_body_sensor.value_or(pcrb::Transform::Identity());
   if (runTrackingScoring(options.tracking, std::cout)) return pcrb_tools::kSuccess;
-  std::cerr << "score_poses: more scans were lost than --max-lost allows" << std::endl;
+  std::cerr << "score_poses: more scans were lost than --max-lost "
+            << pcrb::formatShortest(options.tracking.max_lost) << " allows" << std::endl;
   return pcrb_tools::kFailure;
 }
 

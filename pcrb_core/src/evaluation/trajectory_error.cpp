@@ -54,7 +54,7 @@ std::vector<double> pathLengths(const Poses& poses) {
 std::vector<double> kittiLengths(double path) {
   constexpr int kLengths = 8;
   double unit = 100.0;
-  while (unit * kLengths > path && unit > 1e-3) unit /= 10.0;
+  while (unit >= path && unit > 1e-3) unit /= 10.0;
   std::vector<double> lengths;
   for (int i = 1; i <= kLengths; ++i) lengths.push_back(unit * i);
   return lengths;
@@ -116,11 +116,11 @@ Drift drift(const Poses& reference, const Poses& estimate, std::vector<double> l
   constexpr std::size_t kKittiStep = 10;
   if (step == 0) step = reference.size() < 10 * kKittiStep ? 1 : kKittiStep;
   Drift result;
-  result.lengths = lengths;
   double translation = 0.0;
   double rotation = 0.0;
-  for (std::size_t first = 0; first < path.size(); first += step) {
-    for (const double length : lengths) {
+  for (const double length : lengths) {
+    const std::size_t known = result.segments;
+    for (std::size_t first = 0; first < path.size(); first += step) {
       const auto last = std::upper_bound(path.begin(), path.end(), path[first] + length);
       if (last == path.end()) continue;
       PoseErrors error;
@@ -130,6 +130,7 @@ Drift drift(const Poses& reference, const Poses& estimate, std::vector<double> l
       rotation += error.rotation.back() / length;
       ++result.segments;
     }
+    if (result.segments > known) result.lengths.push_back(length);
   }
   const double n = static_cast<double>(result.segments);  // 0 / 0 is NaN
   result.translation_percent = 100.0 * translation / n;

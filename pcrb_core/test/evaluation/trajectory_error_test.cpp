@@ -150,6 +150,10 @@ TEST(TrajectoryError, DriftIsThatOfKitti) {
   const Drift shorter = drift(straight(91, 1.0, 0.0), straight(91, 1.05, 0.0));
   EXPECT_EQ(shorter.lengths.front(), 10.0) << "a tenth of KITTI's";
   EXPECT_EQ(shorter.lengths.back(), 80.0);
+  const Drift sequence03 = drift(straight(562, 1.0, 0.0), straight(562, 1.05, 0.0));
+  EXPECT_EQ(sequence03.lengths, (std::vector<double>{100, 200, 300, 400, 500}))
+      << "KITTI's own sequences can be shorter than 800 m";
+  EXPECT_EQ(sequence03.segments, 47u + 37 + 27 + 17 + 7);
   EXPECT_EQ(drift(straight(2, 1, 0), straight(2, 1, 0), {5.0}).segments, 0u);
   EXPECT_TRUE(std::isnan(drift(straight(2, 1, 0), straight(2, 1, 0), {5.0}).translation_percent));
   EXPECT_THROW(drift(truth, truth, {-1.0}), InvalidParameter);

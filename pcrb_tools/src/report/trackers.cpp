@@ -108,7 +108,8 @@ std::vector<Json> trackerRow(const Tracker& tracker) {
           number(rmse(metres.translation)),
           number(rmse(metres.rotation) * kTrackerDegree),
           number(drift.translation_percent),
-          number(drift.rotation_degrees_per_metre)};
+          number(drift.rotation_degrees_per_metre),
+          tracker.truth.size() == tracker.scans.size() ? "complete" : "incomplete"};
 }
 
 bool haveTheSameScans(const Tracker& a, const Tracker& b) {
@@ -186,6 +187,7 @@ Table trackerTable(const std::vector<Tracker>& trackers) {
         "RPE metre m", "RPE metre deg", "t_rel %", "r_rel deg/m"}) {
     table.columns.push_back({name, Format::kError});
   }
+  table.columns.push_back({"verdict"});
   for (const Tracker& tracker : trackers) table.rows.push_back(trackerRow(tracker));
   return table;
 }

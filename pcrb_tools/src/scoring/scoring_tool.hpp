@@ -47,7 +47,7 @@ struct TrackingOptions {
   double max_difference = 0.01;  ///< s between a scan and its pose
   std::size_t delta = 1;         ///< scans, of relative errors
   double metres = 1.0;           ///< m, of relative errors
-  double max_lost = 1.0;         ///< fraction of the scans that may be without a pose
+  double max_lost = 0.0;         ///< fraction of the scans that may be without a pose
   bool align = false;            ///< APE after a rigid alignment
   pcrb::Transform T_body_sensor = pcrb::Transform::Identity();  ///< poses are those of the body
   std::vector<std::string> tf;  ///< of a bag: world's and body's frames, in place of a topic

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -187,9 +186,7 @@ bool runTrackingScoring(const TrackingOptions& options, std::ostream& out) {
   pcrb::writeFileAtomically(options.output + "/map.csv", view.csv());
   pcrb::writeFileAtomically(options.output + "/summary.txt", summary);
   out << summary << std::flush;
-  const auto lost = static_cast<double>(std::count_if(
-      scans.begin(), scans.end(), [](const TrackedScan& scan) { return !scan.T_map_sensor; }));
-  return lost <= options.max_lost * static_cast<double>(scans.size());
+  return isComplete(scans, options);
 }
 
 }  // namespace pcrb_tools

@@ -1,5 +1,6 @@
 #include "scoring/tracking_tables.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -38,6 +39,22 @@ void appendRow(std::ostream& out, const std::string& name, const std::vector<dou
         << (std::isnan(value) ? std::string("-") : pcrb::formatFixed(value, 6));
   }
   out << '\n';
+}
+
+std::size_t lostOf(const std::vector<TrackedScan>& scans) {
+  return static_cast<std::size_t>(std::count_if(
+      scans.begin(), scans.end(), [](const TrackedScan& scan) { return !scan.T_map_sensor; }));
+}
+
+std::string verdictOn(const std::vector<TrackedScan>& scans, const TrackingOptions& options) {
+  const std::size_t lost = lostOf(scans);
+  if (lost == 0) return "verdict: complete\n";
+  const std::string limit = pcrb::formatShortest(options.max_lost);
+  return "lost " + std::to_string(lost) + " of " + std::to_string(scans.size()) +
+         " scans; in `lost held` each counts with the last pose before it\nverdict: " +
+         (isComplete(scans, options) ? "complete enough: no more lost than --max-lost " + limit
+                                     : "incomplete: more lost than --max-lost " + limit) +
+         "\n";
 }
 
 }  // namespace
@@ -123,12 +140,12 @@ std::string summarizeTracking(const std::vector<TrackedScan>& scans,
         << pcrb::formatFixed(drift.translation_percent, 4) << " %, r_rel "
         << pcrb::formatFixed(drift.rotation_degrees_per_metre, 6) << " deg/m\n";
   }
-  const std::size_t lost = scans.size() - matched.estimate.size();
-  if (lost > 0) {
-    out << "lost " << lost << " of " << scans.size()
-        << " scans; in `lost held` each counts with the last pose before it\n";
-  }
+  out << verdictOn(scans, options);
   return out.str();
+}
+
+bool isComplete(const std::vector<TrackedScan>& scans, const TrackingOptions& options) {
+  return static_cast<double>(lostOf(scans)) <= options.max_lost * static_cast<double>(scans.size());
 }
 
 }  // namespace pcrb_tools

@@ -39,7 +39,10 @@ std::string formatScansCsv(const std::vector<TrackedScan>& scans);
 std::string formatTruthTum(const std::vector<TrackedScan>& scans);
 std::string formatEstimateTum(const std::vector<TrackedScan>& scans);
 
-/// A table: the benchmark's error, APE and RPE with evo's statistics.
+/// Whether no more scans are without a pose than may be.
+bool isComplete(const std::vector<TrackedScan>& scans, const TrackingOptions& options);
+
+/// A table: the benchmark's error, APE and RPE with evo's statistics; the verdict on completeness.
 std::string summarizeTracking(const std::vector<TrackedScan>& scans,
                               const TrackingOptions& options);
 

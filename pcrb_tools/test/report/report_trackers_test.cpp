@@ -51,6 +51,7 @@ TEST_F(TrackersTest, AreATableInWhichLostScansCost) {
   EXPECT_EQ(rows[1]["completeness"], "0.75");
   EXPECT_EQ(rows[1]["error"], "0.1");
   EXPECT_EQ(rows[1]["APE m"], "0");
+  EXPECT_EQ(rows[0]["verdict"] + " " + rows[1]["verdict"], "complete incomplete");
   const Json report = Json::parse(read(options_.output + "/report.json"));
   ASSERT_EQ(report["trackers"]["groups"].size(), 1u) << "they had the same scans";
   const Json& group = report["trackers"]["groups"][0];

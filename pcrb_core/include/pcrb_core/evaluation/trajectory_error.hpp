@@ -42,13 +42,14 @@ PoseErrors relativePoseErrorsOver(const Poses& reference, const Poses& estimate,
 /// more than each of some lengths of the reference's path, the error by that length; their mean.
 struct Drift {
   std::size_t segments = 0;                 ///< 0: no path is that long, the others are NaN
-  std::vector<double> lengths;              ///< m, of the path
+  std::vector<double> lengths;              ///< m, of the path, those that have segments
   double translation_percent = 0.0;         ///< t_rel, of the length
   double rotation_degrees_per_metre = 0.0;  ///< r_rel
 };
 
-/// @param lengths  m, each > 0; empty = KITTI's 100, 200 … 800 m, divided by 10 until 8 of them are
-///                 not longer than the path.
+/// @param lengths  m, each > 0; empty = KITTI's 100, 200 … 800 m, divided by 10 until one of them
+/// is
+///                 shorter than the path. Those that are longer have no segments, as in KITTI's.
 /// @param step     0 = KITTI's 10, or 1 for fewer than 100 poses.
 /// @throws InvalidParameter  as absolutePoseErrors(), and for a length that is not > 0.
 /// Source: Geiger, Lenz, Urtasun, CVPR 2012, and the devkit of the odometry benchmark.
