@@ -35,6 +35,7 @@ py::dict toRow(const pcrb::Result& result) {
   row["position"] = orNone(result.position);
   row["orientation"] = py::none();
   if (result.orientation) row["orientation"] = py::cast(result.orientation->coeffs().eval());
+  row["covariance"] = orNone(result.covariance);
   return row;
 }
 
@@ -75,6 +76,7 @@ py::object nextProblem(pcrb::InProcessRun& run) {
   fields["source_intensity"] = intensityArray(problem->source_intensity);
   fields["guess"] = py::cast(Eigen::Matrix4d(problem->guess.matrix()));
   fields["has_guess"] = problem->has_guess;
+  fields["voxel_leaf"] = problem->voxel_leaf;
   return py::object(fields);
 }
 
@@ -82,6 +84,13 @@ pcrb::Submission poseSubmission(const Eigen::Vector3d& position, const Eigen::Ve
   pcrb::Submission submission;
   submission.position = position;
   submission.orientation.coeffs() = xyzw;
+  return submission;
+}
+
+/// @param covariance  row-major x y z rx ry rz.
+pcrb::Submission withCovariance(pcrb::Submission submission,
+                                const pcrb::PoseCovariance& covariance) {
+  submission.covariance = covariance;
   return submission;
 }
 
@@ -119,6 +128,7 @@ std::unique_ptr<pcrb::InProcessRun> makeRun(const std::string& root,
 void defineRun(py::module& module) {
   const py::class_<pcrb::Submission> submission_type(module, "Submission");
   module.def("pose", &poseSubmission);
+  module.def("with_covariance", &withCovariance);
   module.def("failure", &failure);
   module.def("position_and_orientation", &positionAndOrientation);
   py::class_<pcrb::InProcessRun>(module, "Run")

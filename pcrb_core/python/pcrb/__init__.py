@@ -165,7 +165,8 @@ def read_results(run):
     Returns a dict of arrays of one length: data_set, sequence, kind, problem_id, source, target, outcome, reason (text);
     overlap, error, initial_misalignment (dimensionless), rotation_error_rad, translation_error_m, runtime_s,
     solver_time_s (nan where unknown); position (n, 3) in m and orientation (n, 4) as x y z w, the accepted reply
-    T_target_source (nan where there is none).
+    T_target_source (nan where there is none); covariance (n, 6, 6), that of the reply, x y z rx ry rz in m and rad (nan where
+    there is none).
     Raises StoreError if there is no store that can be read.
     """
     rows = _pcrb.read_results(os.fsencode(run))
@@ -175,10 +176,10 @@ def read_results(run):
     columns = {name: np.array([row[name] for row in rows], dtype=np.str_) for name in texts}
     columns.update({name: np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=np.float64)
                     for name in numbers})
-    for name, size in (('position', 3), ('orientation', 4)):
-        unknown = np.full(size, np.nan)
-        values = [unknown if row[name] is None else np.ravel(row[name]) for row in rows]
-        columns[name] = np.array(values, dtype=np.float64).reshape(len(rows), size)
+    for name, shape in (('position', (3,)), ('orientation', (4,)), ('covariance', (6, 6))):
+        unknown = np.full(shape, np.nan)
+        values = [unknown if row[name] is None else np.reshape(row[name], shape) for row in rows]
+        columns[name] = np.array(values, dtype=np.float64).reshape(len(rows), *shape)
     return columns
 
 

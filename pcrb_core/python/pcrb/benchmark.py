@@ -19,6 +19,7 @@ class Problem:
     target, source: (n, 3) float32; for the presentation `localization` the source is in its sensor's frame
     target_intensity, source_intensity: (n,) float32, or None where the clouds have none
     guess: (4, 4), T_target_source to start from; has_guess is False for global problems, whose guess means nothing
+    voxel_leaf: m, edge of a voxel grid's cells that suits the data set's clouds
     index, count: which problem of how many this is
     """
 
@@ -32,7 +33,8 @@ class Problem:
     def score(self, pose):
         """What the benchmark says of a pose T_target_source, as long as no further problem was asked for.
 
-        pose: (4, 4) or (3, 4), or a pair of position (3,) and quaternion (4,) as x y z w
+        pose: (4, 4) or (3, 4), or a pair of position (3,) and quaternion (4,) as x y z w; or a pair of such a pose and its
+            covariance (6, 6)
         Returns a dict: outcome, error, initial_misalignment, rotation_error_rad, translation_error_m and more, as a row of
         read_results.
         """
@@ -42,6 +44,8 @@ class Problem:
 def _submission(answer):
     """A pose as what a client submits; a matrix becomes the quaternion that a client in C++ sends for it."""
     if isinstance(answer, tuple) and len(answer) == 2:
+        if np.shape(answer[1]) == (6, 6):
+            return _pcrb.with_covariance(_submission(answer[0]), np.ravel(np.asarray(answer[1], dtype=np.float64)))
         position, orientation = (np.asarray(part, dtype=np.float64) for part in answer)
         if position.shape != (3,) or orientation.shape != (4,):
             raise ValueError(f'pose: found shapes {position.shape} and {orientation.shape}, expected (3,) and (4,)')
@@ -92,7 +96,8 @@ def run(function, root, folder, sequences='all', kind='local', subset=0, seed=1,
     """Benchmarks a function, in the folder of a run like the server's: results.sqlite, results.csv, summary.txt.
 
     function: takes a Problem and returns T_target_source, (4, 4) or (3, 4), or a pair of position (3,) and quaternion (4,) as
-        x y z w. An exception, or None, is the outcome `failed`, with its text as the reason; an answer after time_limit (s)
+        x y z w; or a pair of such a pose and its covariance, (6, 6), x y z rx ry rz in m and rad in the target's frame, which
+        the report judges. An exception, or None, is the outcome `failed`, with its text as the reason; an answer after time_limit (s)
         counts as none.
     folder: of the run; each result is on the disk before the next problem is shown, so that an interrupted run goes on. It
         takes one configuration only, and one name (default: the function's).

@@ -260,6 +260,7 @@ class RunTest(unittest.TestCase):
         for name in 'a.pcd', 'b.pcd':
             pcrb.write_pcd(clouds / name, self.points)
         self.P = pcrb.make_perturbation(self.points, [0.3, 0.2, 0.1], some_rotation())
+        (self.root / 'rooms' / 'dataset.yaml').write_text('voxel_leaf: 0.1\n')
         pcrb.write_problems(self.root / 'rooms' / 'hall_local.txt', [
             {'id': str(number), 'source': 'a.pcd', 'target': 'b.pcd', 'overlap': 1.0, 'perturbation': self.P}
             for number in (10, 11)])
@@ -279,6 +280,7 @@ class RunTest(unittest.TestCase):
             problems.append(problem)
             self.assertEqual(problem.source.dtype, np.float32)
             self.assertLess(np.abs(problem.target).max(), 200.0)
+            self.assertEqual(problem.voxel_leaf, 0.1)
             self.assertLess(problem.score(self.ideal(problem))['error'], 1e-5)
             self.assertEqual(problem.score(problem.guess)['error'], problem.score(np.eye(4))['initial_misalignment'])
         self.assertEqual([(p.id, p.index, p.count) for p in problems], [('10', 0, 2), ('11', 1, 2)])
@@ -315,6 +317,20 @@ class RunTest(unittest.TestCase):
         self.assertEqual(results['outcome'].tolist(), ['failed', 'failed'])
         self.assertEqual(results['reason'].tolist(), ['ValueError: too few points', 'the function returned None'])
         np.testing.assert_array_equal(results['error'], results['initial_misalignment'])
+
+    def test_a_pose_may_come_with_its_covariance(self):
+        covariance = np.diag([1.0, 4.0, 9.0, 0.1, 0.2, 0.3])
+        covariance[0, 5] = covariance[5, 0] = 0.05
+
+        def method(problem):
+            return (self.ideal(problem), covariance) if problem.id == '10' else ([0, 0, 0], [0, 0, 0, 1])
+        results = pcrb.run(method, self.root, self.folder)
+        self.assertEqual(results['outcome'].tolist(), ['replied', 'replied'])
+        np.testing.assert_array_equal(results['covariance'], [covariance, np.full((6, 6), np.nan)])
+        self.assertLess(results['error'][0], 1e-5)
+        (pair, *_) = pcrb.problems(self.root, 'rooms/hall')
+        with self.assertRaisesRegex(ValueError, r'found shapes \(4, 4\) and \(6, 5\)'):
+            pair.score((np.eye(4), covariance[:, :5]))
 
     def test_an_answer_after_the_time_limit_counts_as_none(self):
         results = pcrb.run(self.ideal, self.root, self.folder, time_limit=1e-9)

@@ -67,6 +67,7 @@ struct InProcessRun::Impl {
     problem.source = coordinatesOf(shown.source->cloud, shown.presentation.applied);
     problem.target_intensity = shown.target->cloud.intensity;
     problem.source_intensity = shown.source->cloud.intensity;
+    problem.voxel_leaf = shown.planned->data_set->voxel_leaf;
     problem.has_guess = key.kind == Kind::kLocal || options.configuration.global_guess;
     if (problem.has_guess) problem.guess = shown.presentation.guess;
     return problem;

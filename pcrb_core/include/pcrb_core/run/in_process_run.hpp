@@ -23,6 +23,7 @@ struct ClientProblem {
   std::vector<float> source_intensity;
   Transform guess = Transform::Identity();  ///< T_target_source to start from
   bool has_guess = false;                   ///< else the guess is the identity and means nothing
+  double voxel_leaf = 0.0;                  ///< m, of the data set
 };
 
 /// What is asked of a run in this process.
