@@ -27,22 +27,19 @@ std::string argumentOf(const BatchOptions& options, const std::string& name) {
   return "";
 }
 
+bool isSame(const SeriesRun& a, const SeriesRun& b) {
+  return a.parameter == b.parameter && a.value == b.value && a.trial == b.trial;
+}
+
 /// Notes the series in its folder. A series may grow: trials and values are added.
-void noteSeries(const BatchOptions& options, const std::vector<SeriesRun>& runs) {
+void noteSeries(const BatchOptions& options, std::vector<SeriesRun>& runs) {
   fs::create_directories(options.run);
   if (fs::exists(options.run + "/batch.txt") || fs::exists(options.run + "/results.sqlite")) {
     throw pcrb::InvalidParameter(
         options.run + ": the folder holds a run, expected one for a series: give another");
   }
-  std::vector<SeriesRun> all = readSeries(options.run);
-  const auto place = [&](const SeriesRun& run) {
-    return std::find_if(all.begin(), all.end(),
-                        [&](const SeriesRun& known) { return known.folder == run.folder; });
-  };
-  for (const SeriesRun& run : runs) {
-    if (place(run) == all.end()) all.push_back(run);
-  }
-  pcrb::writeFileAtomically(options.run + "/" + kSeriesFile, formatSeries(all));
+  pcrb::writeFileAtomically(options.run + "/" + kSeriesFile,
+                            formatSeries(grown(readSeries(options.run), runs)));
 }
 
 /// The launch arguments of a run of a sweep: with its own parameter file, which is written.
@@ -101,6 +98,19 @@ std::vector<SeriesRun> runsOfSeries(const SeriesOptions& options) {
   return runs;
 }
 
+std::vector<SeriesRun> grown(std::vector<SeriesRun> all, std::vector<SeriesRun>& runs) {
+  for (SeriesRun& run : runs) {
+    const auto known = std::find_if(all.begin(), all.end(),
+                                    [&run](const SeriesRun& other) { return isSame(run, other); });
+    if (known == all.end()) {
+      all.push_back(run);
+    } else {
+      run.folder = known->folder;
+    }
+  }
+  return all;
+}
+
 std::string sweptParameters(const std::string& file, const std::string& method,
                             const std::string& parameter, const std::string& value) {
   const pcrb::MethodParameters parameters(file);
@@ -127,8 +137,15 @@ std::string sweptParameters(const std::string& file, const std::string& method,
 }
 
 int runSeriesTool(const BatchOptions& options, const SeriesOptions& series) {
-  if (series.isOne()) return runBatchTool(options);
-  const std::vector<SeriesRun> runs = runsOfSeries(series);
+  if (series.isOne()) {
+    if (!readSeries(options.run).empty()) {
+      throw pcrb::InvalidParameter(
+          options.run +
+          ": the folder holds a series, expected --repeat or --sweep: give another for one run");
+    }
+    return runBatchTool(options);
+  }
+  std::vector<SeriesRun> runs = runsOfSeries(series);
   noteSeries(options, runs);
   int status = kSuccess;
   for (const SeriesRun& run : runs) {

@@ -20,6 +20,13 @@ struct SeriesOptions {
 /// @throws pcrb::InvalidParameter  for a sweep without a name or values, or a value twice.
 std::vector<SeriesRun> runsOfSeries(const SeriesOptions& options);
 
+/// What a series becomes when further runs are added to it.
+///
+/// @param all   the series as it is.
+/// @param runs  those that are there already (same parameter, value and trial) are given their
+/// folder.
+std::vector<SeriesRun> grown(std::vector<SeriesRun> all, std::vector<SeriesRun>& runs);
+
 /// Text of a method's parameter file with one value replaced, whatever the data set.
 ///
 /// @param file    the parameter file.
@@ -33,7 +40,7 @@ std::string sweptParameters(const std::string& file, const std::string& method,
 /// complete is kept; with `only`, of each run that shard alone.
 ///
 /// @return  exit status: 0 only if all runs end so.
-/// @throws pcrb::Error  as runBatchTool(), and if the folder holds a run, or another series.
+/// @throws pcrb::Error  as runBatchTool(), and if the folder holds a run; or a series, for a run.
 int runSeriesTool(const BatchOptions& options, const SeriesOptions& series);
 
 }  // namespace pcrb_tools

@@ -82,26 +82,25 @@ void addResults(const std::string& path, int trial, Entry& frame,
 /// One entry per value of a series, with the problems of all trials.
 void addSeries(const NamedPath& place, const std::string& name, const std::vector<SeriesRun>& runs,
                std::vector<Entry>& entries) {
-  std::vector<std::string> values;
+  std::vector<std::pair<std::string, std::string>> values;  // parameter, value
   for (const SeriesRun& run : runs) {
-    if (std::find(values.begin(), values.end(), run.value) == values.end()) {
-      values.push_back(run.value);
-    }
+    const std::pair value(run.parameter, run.value);
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
   }
-  for (const std::string& value : values) {
+  for (const auto& [parameter, value] : values) {
     Entry frame;
     frame.path = place.path;
     frame.series = name;
     frame.trials = 0;
     std::vector<ScoredProblem> problems;
     for (const SeriesRun& run : runs) {
-      if (run.value != value) continue;
-      frame.parameter = run.parameter;
+      if (run.parameter != parameter || run.value != value) continue;
       const std::string folder = place.path + "/" + run.folder;
       addResults(folder, run.trial, frame, problems);
       frame.trial_folders[run.trial] = folder;
       ++frame.trials;
     }
+    frame.parameter = parameter;
     frame.value = value;
     frame.method = frame.parameter.empty() ? name : name + " " + frame.parameter + "=" + value;
     addByKind(frame, std::move(problems), entries);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "pcrb_core/evaluation/statistics.hpp"
@@ -98,6 +99,9 @@ Table sweepTable(const Section& section, const ReportOptions& options) {
                           number(statistics.median), interval.low, interval.high,
                           number(statistics.q95)});
   }
+  std::stable_sort(table.rows.begin(), table.rows.end(), [](const auto& a, const auto& b) {
+    return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]);  // by value, in the end
+  });
   return table;
 }
 

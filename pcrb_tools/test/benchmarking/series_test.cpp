@@ -27,6 +27,27 @@ TEST(Series, HasARunPerValueAndTrial) {
   EXPECT_TRUE((SeriesOptions{1, ""}.isOne()));
 }
 
+TEST(Series, KeepsTheFolderOfARunWhenTrialsAreAdded) {
+  const std::vector<SeriesRun> known = runsOfSeries({1, "leaf=1,2"});
+  std::vector<SeriesRun> runs = runsOfSeries({2, "leaf=2"});
+  runs.push_back({"seed=2", "seed", "2", 1});
+  std::string folders;
+  for (const SeriesRun& run : grown(known, runs)) folders += run.folder + " ";
+  EXPECT_EQ(folders, "leaf=1 leaf=2 leaf=2/trial_2 seed=2 ");
+  EXPECT_EQ(runs[0].folder, "leaf=2");
+  EXPECT_EQ(runs[1].folder, "leaf=2/trial_2");
+}
+
+TEST(Series, IsNotMixedWithARun) {
+  const pcrb_test::TemporaryFolder folder;
+  std::ofstream(folder.file("series.csv")) << "folder,parameter,value,trial\ntrial_1,,,1\n";
+  BatchOptions options;
+  options.run = folder.path();
+  PCRB_EXPECT_ERROR(pcrb::InvalidParameter, runSeriesTool(options, {1, ""}), "holds a series");
+  std::ofstream(folder.file("batch.txt")) << "x\n";
+  PCRB_EXPECT_ERROR(pcrb::InvalidParameter, runSeriesTool(options, {2, ""}), "holds a run");
+}
+
 TEST(Series, RefusesASweepThatIsNone) {
   for (const char* sweep : {"leaf", "leaf=", "=0.1", "leaf=0.1,,0.2", "leaf=1,1", "leaf=../x"}) {
     PCRB_EXPECT_ERROR(pcrb::InvalidParameter, runsOfSeries({1, sweep}), "expected NAME=V1,V2");

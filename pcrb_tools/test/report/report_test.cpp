@@ -226,9 +226,11 @@ TEST_F(ReportTest, ShowsTrialsAndSweepsOfASeries) {
   addRun("series/voxel_leaf=0.1/trial_1", 0.1);
   addRun("series/voxel_leaf=0.1/trial_2", 0.3);
   addRun("series/voxel_leaf=0.4/trial_1", 0.5);
+  addRun("series/seed=0.1", 0.7);
   addFile("series/series.csv",
           "folder,parameter,value,trial\nvoxel_leaf=0.1/trial_1,voxel_leaf,0.1,1\n"
-          "voxel_leaf=0.1/trial_2,voxel_leaf,0.1,2\nvoxel_leaf=0.4/trial_1,voxel_leaf,0.4,1\n");
+          "voxel_leaf=0.1/trial_2,voxel_leaf,0.1,2\nvoxel_leaf=0.4/trial_1,voxel_leaf,0.4,1\n"
+          "seed=0.1,seed,0.1,1\n");
   options_.runs = {"mine=" + folder_.file("series"), addRun("other", 0.2)};
   writeReportData(options_);
   Rows trials = readCsv(options_.output + "/tables/local_trials.csv");
@@ -239,11 +241,13 @@ TEST_F(ReportTest, ShowsTrialsAndSweepsOfASeries) {
   EXPECT_NEAR(std::stod(trials[1]["within median"]), 0.2, 0.01);
   EXPECT_EQ(trials[1]["changed"], "1");
   Rows sweeps = readCsv(options_.output + "/tables/local_sweeps.csv");
-  ASSERT_EQ(sweeps.size(), 2u);
-  EXPECT_EQ(sweeps[0]["series"] + sweeps[0]["parameter"] + sweeps[0]["value"], "minevoxel_leaf0.1");
-  EXPECT_EQ(sweeps[0]["problems"], "80");
-  EXPECT_EQ(sweeps[1]["problems"], "40");
-  EXPECT_NEAR(std::stod(sweeps[1]["median"]), 0.5, 0.02);
+  ASSERT_EQ(sweeps.size(), 3u);
+  EXPECT_EQ(sweeps[0]["method"], "mine seed=0.1") << "another parameter of the same value";
+  EXPECT_NEAR(std::stod(sweeps[0]["median"]), 0.7, 0.02);
+  EXPECT_EQ(sweeps[1]["series"] + sweeps[1]["parameter"] + sweeps[1]["value"], "minevoxel_leaf0.1");
+  EXPECT_EQ(sweeps[1]["problems"], "80");
+  EXPECT_EQ(sweeps[2]["problems"], "40");
+  EXPECT_NEAR(std::stod(sweeps[2]["median"]), 0.5, 0.02);
   const Json report = Json::parse(read(options_.output + "/report.json"));
   EXPECT_EQ(report["sections"][0]["selections"][0]["problems"], 40);
   EXPECT_EQ(report["sections"][0]["selections"][0]["shared"], 40);
