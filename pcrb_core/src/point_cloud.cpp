@@ -8,6 +8,10 @@
 #include "arithmetic.hpp"
 #include "pcrb_core/error.hpp"
 
+#if defined(PCRB_HAS_CLONES)
+#include <immintrin.h>
+#endif
+
 namespace pcrb {
 
 bool DatasetCloud::hasViewpoint() const {
@@ -82,13 +86,71 @@ void movePoints(const float* points, std::size_t count, const double* columns, s
   }
 }
 
+#if defined(PCRB_HAS_CLONES)
+
+constexpr std::size_t kBlock = 8;  // points that the loop below moves at once
+
+// GCC 12 warns of the plain forms of some of these calls, as if they used what is not set.
+constexpr __mmask8 kAll = 0xff;
+
+__attribute__((target("avx512f"))) inline __m256 lowHalf(__m512 values) {
+  return _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(kAll, _mm512_castps_pd(values), 0));
+}
+
+__attribute__((target("avx512f"))) inline __m512 joined(__m256 low, __m256 high) {
+  const __m512d lower =
+      _mm512_maskz_insertf64x4(kAll, _mm512_setzero_pd(), _mm256_castps_pd(low), 0);
+  return _mm512_castpd_ps(_mm512_maskz_insertf64x4(kAll, lower, _mm256_castps_pd(high), 1));
+}
+
+/// movePoints() of whole blocks of points that lie one after the other: no lane is empty.
+__attribute__((target("avx512f"))) void moveBlocks(const float* points, std::size_t blocks,
+                                                   const double* columns, std::uint8_t* out) {
+  const __m512i x = _mm512_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21, 0, 0, 0, 0, 0, 0, 0, 0);
+  const __m512i places[3] = {x, _mm512_add_epi32(x, _mm512_set1_epi32(1)),
+                             _mm512_add_epi32(x, _mm512_set1_epi32(2))};
+  // Of x at 0 to 7, y at 8 to 15, z at 16 to 23.
+  const __m512i front = _mm512_setr_epi32(0, 8, 16, 1, 9, 17, 2, 10, 18, 3, 11, 19, 4, 12, 20, 5);
+  const __m512i back = _mm512_setr_epi32(13, 21, 6, 14, 22, 7, 15, 23, 0, 0, 0, 0, 0, 0, 0, 0);
+  for (; blocks > 0; --blocks, points += 3 * kBlock, out += 3 * kBlock * sizeof(float)) {
+    const __m512 a = _mm512_loadu_ps(points);
+    const __m512 b = _mm512_maskz_loadu_ps(0xff, points + 16);
+    __m512d p[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const __m512 taken = _mm512_permutex2var_ps(a, places[axis], b);
+      p[axis] = _mm512_maskz_cvtps_pd(kAll, lowHalf(taken));
+    }
+    __m256 q[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double* c = columns + axis;
+      q[axis] = _mm512_maskz_cvtpd_ps(kAll, c[0] * p[0] + c[4] * p[1] + c[8] * p[2] + c[12]);
+    }
+    const __m512 xy = joined(q[0], q[1]);
+    const __m512 z = joined(q[2], q[2]);
+    _mm512_storeu_ps(out, _mm512_permutex2var_ps(xy, front, z));
+    const __m256 rest = lowHalf(_mm512_permutex2var_ps(xy, back, z));
+    _mm256_storeu_ps(reinterpret_cast<float*>(out + 16 * sizeof(float)), rest);
+  }
+}
+
+#endif
+
 }  // namespace
 
 void transformPoints(const PointCloud& cloud, const Transform& T, std::uint8_t* out,
                      std::size_t stride) {
   if (cloud.points.empty()) return;
   const Eigen::Matrix4d columns = T.matrix();
-  movePoints(cloud.points.front().data(), cloud.size(), columns.data(), out, stride);
+  const float* points = cloud.points.front().data();
+  std::size_t moved = 0;
+#if defined(PCRB_HAS_CLONES)
+  if (stride == 3 * sizeof(float) && __builtin_cpu_supports("avx512f")) {
+    moveBlocks(points, cloud.size() / kBlock, columns.data(), out);
+    moved = cloud.size() / kBlock * kBlock;
+  }
+#endif
+  movePoints(points + 3 * moved, cloud.size() - moved, columns.data(), out + stride * moved,
+             stride);
 }
 
 }  // namespace pcrb

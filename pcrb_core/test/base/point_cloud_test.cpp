@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/random.hpp"
 
 namespace pcrb {
 namespace {
@@ -53,6 +54,22 @@ TEST(PointCloud, TransformedPointsAreTheNaiveOnesAtAnyStride) {
     EXPECT_EQ(out.back(), 0xab);
   }
   transformPoints(PointCloud(), T, nullptr, 12);
+}
+
+TEST(PointCloud, HasTheSameBitsAtEveryStrideAndLength) {
+  Random random(3);
+  const Transform T = makeTransform({1.5, -2.5, 0.25}, Eigen::Quaterniond(0.9, 0.1, -0.3, 0.2));
+  PointCloud cloud;
+  for (int size = 1; size <= 40; ++size) {  // with and without a rest beside blocks of eight
+    cloud.points.push_back((random.direction() * random.uniform(0.0, 900.0)).cast<float>());
+    std::vector<std::uint8_t> packed(cloud.size() * 12 + 1, 0xab), spaced(cloud.size() * 16);
+    transformPoints(cloud, T, packed.data(), 12);
+    transformPoints(cloud, T, spaced.data(), 16);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      ASSERT_EQ(std::memcmp(&packed[i * 12], &spaced[i * 16], 12), 0) << i << " of " << size;
+    }
+    ASSERT_EQ(packed.back(), 0xab);
+  }
 }
 
 }  // namespace
