@@ -196,10 +196,13 @@ set_environment() {
   esac
 }
 
-# The catkin of Debian 11 keeps in CMake's cache that googletest is there, and then makes no targets of it the next time.
 run_catkin_make() {
+  local forced=()
+  # The catkin of Debian 11 keeps in CMake's cache that googletest is there, and then makes no targets of it when CMake runs again,
+  # which make may want at any time.
+  if grep -q '^GMOCK_FOUND:' "$root/build/CMakeCache.txt" 2>/dev/null; then forced=(--force-cmake); fi
   # shellcheck disable=SC2086 # several arguments
-  catkin_make -C "$root" --source "$root" "-j${parallel:-$(parallel_jobs)}" "$@" --cmake-args -Wno-dev -UGMOCK_FOUND \
+  catkin_make -C "$root" --source "$root" "-j${parallel:-$(parallel_jobs)}" "${forced[@]}" "$@" --cmake-args -Wno-dev -UGMOCK_FOUND \
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "-DPYTHON_EXECUTABLE=$python" "-DPCRB_WERROR=${PCRB_WERROR:-OFF}" ${CMAKE_ARGS:-}
 }
 
