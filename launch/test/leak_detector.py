@@ -177,7 +177,7 @@ class LeakDetector:
             for length, candidates in secret.spellings.items():
                 if length > len(numbers):
                     continue
-                windows = np.lib.stride_tricks.sliding_window_view(numbers, length)
+                windows = numbers[np.arange(len(numbers) - length + 1)[:, None] + np.arange(length)]
                 for name, spelling in candidates:
                     if (np.abs(windows - spelling) <= TOLERANCE).all(axis=1).any():
                         yield f'{seen.place}: {length} numbers spell {name} of problem {k}'

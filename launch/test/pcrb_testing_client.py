@@ -74,12 +74,12 @@ class Client:
         return wait_until(lambda: self.results.get(problem.problem_id), 'the result comes')
 
     def serve(self, server, answer=None, limit=None):
-        """Answers problems until the server has ended, or until `limit` of them were answered.
+        """Answers problems until the server has ended, or until `limit` of them were answered and stored.
 
         @param answer  called with the client and the problem, after the source has come.
         """
         answer = answer or (lambda client, problem: client.submit(problem))
-        count = 0
+        count, before = 0, len(server.rows()) if limit else 0
         while count != limit:
             if not wait_until(lambda: self.has_new_problem() or server.ended(), 'the run goes on'):
                 break
@@ -92,4 +92,6 @@ class Client:
                     count += 1
             except rospy.ServiceException:
                 pass  # the server has ended; if it is not, its problem times out
+        if limit:
+            wait_until(lambda: len(server.rows()) >= before + count or server.ended(), 'what was answered is stored')
         return count
