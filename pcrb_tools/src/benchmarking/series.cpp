@@ -42,17 +42,22 @@ void noteSeries(const BatchOptions& options, std::vector<SeriesRun>& runs) {
                             formatSeries(grown(readSeries(options.run), runs)));
 }
 
-/// The launch arguments of a run of a sweep: with its own parameter file, which is written.
-std::vector<std::string> sweptArguments(const BatchOptions& options, const SeriesRun& run) {
+/// Text of the parameter file of a run of a sweep.
+std::string parametersOf(const BatchOptions& options, const SeriesRun& run) {
   const std::string method =
       argumentOf(options, "method").empty() ? "gicp" : argumentOf(options, "method");
   std::string file = argumentOf(options, "parameters");
   if (file.empty()) {
     file = ros::package::getPath("pcrb_launch") + "/config/methods/" + method + ".yaml";
   }
+  return sweptParameters(file, method, run.parameter, run.value);
+}
+
+/// The launch arguments of a run of a sweep: with its own parameter file, which is written.
+std::vector<std::string> sweptArguments(const BatchOptions& options, const SeriesRun& run) {
   const std::string path =
       fs::absolute(options.run + "/" + run.parameter + "=" + run.value + ".yaml").string();
-  pcrb::writeFileAtomically(path, sweptParameters(file, method, run.parameter, run.value));
+  pcrb::writeFileAtomically(path, parametersOf(options, run));
   std::vector<std::string> arguments;
   for (const std::string& argument : options.arguments) {
     if (argument.rfind("parameters:=", 0) != 0) arguments.push_back(argument);
@@ -146,6 +151,9 @@ int runSeriesTool(const BatchOptions& options, const SeriesOptions& series) {
     return runBatchTool(options);
   }
   std::vector<SeriesRun> runs = runsOfSeries(series);
+  for (const SeriesRun& run : runs) {
+    if (!run.parameter.empty()) parametersOf(options, run);  // refused before anything is noted
+  }
   noteSeries(options, runs);
   int status = kSuccess;
   for (const SeriesRun& run : runs) {

@@ -96,11 +96,16 @@ void addSeries(const NamedPath& place, const std::string& name, const std::vecto
     for (const SeriesRun& run : runs) {
       if (run.parameter != parameter || run.value != value) continue;
       const std::string folder = place.path + "/" + run.folder;
+      if (!fs::exists(folder + "/results.sqlite")) {
+        std::cerr << folder << " has no results yet, and is left out" << std::endl;
+        continue;
+      }
       addResults(folder, run.trial, frame, problems);
       frame.trial_folders[run.trial] = folder;
       ++frame.trials;
     }
     frame.parameter = parameter;
+    if (frame.trials == 0) continue;
     frame.value = value;
     frame.method = frame.parameter.empty() ? name : name + " " + frame.parameter + "=" + value;
     addByKind(frame, std::move(problems), entries);

@@ -48,6 +48,17 @@ TEST(Series, IsNotMixedWithARun) {
   PCRB_EXPECT_ERROR(pcrb::InvalidParameter, runSeriesTool(options, {2, ""}), "holds a run");
 }
 
+TEST(Series, IsNotNotedForAParameterThatTheMethodHasNot) {
+  const pcrb_test::TemporaryFolder folder;
+  std::ofstream(folder.file("icp.yaml")) << "seed: 3\n";
+  BatchOptions options;
+  options.run = folder.file("series");
+  options.arguments = {"method:=icp", "parameters:=" + folder.file("icp.yaml")};
+  PCRB_EXPECT_ERROR(pcrb::InvalidParameter, runSeriesTool(options, {1, "leaf=1,2"}),
+                    "leaf: no parameter of this method");
+  EXPECT_TRUE(readSeries(options.run).empty());
+}
+
 TEST(Series, RefusesASweepThatIsNone) {
   for (const char* sweep : {"leaf", "leaf=", "=0.1", "leaf=0.1,,0.2", "leaf=1,1", "leaf=../x"}) {
     PCRB_EXPECT_ERROR(pcrb::InvalidParameter, runsOfSeries({1, sweep}), "expected NAME=V1,V2");

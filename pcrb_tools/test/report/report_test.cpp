@@ -73,7 +73,8 @@ TEST_F(ReportTest, SaysWhichDifferencesAreRealWithPairsOfCloudsAsUnits) {
   options_.runs = {addRun("good", 0.1), addRun("bad", 0.2), addRun("same", 0.1)};
   writeReportData(options_);
   const Rows rows = readCsv(options_.output + "/tables/local_comparisons.csv");
-  ASSERT_EQ(rows.size(), 6u);  // three pairs of methods, in total and on the one sequence
+  // Three pairs of methods, in total and on the one sequence; then each against doing nothing.
+  ASSERT_EQ(rows.size(), 12u);
   EXPECT_EQ(rows[0].at("verdict"), "good is better");
   EXPECT_EQ(rows[0].at("pairs"), "20");
   EXPECT_EQ(rows[0].at("problems"), "40");
@@ -106,9 +107,10 @@ TEST_F(ReportTest, RemovesTablesAndFiguresOfTheFormerReportAndNothingElse) {
     std::ofstream(options_.output + "/" + name) << "drawn";
   }
   ASSERT_TRUE(is_there("tables/local_comparisons.csv"));
-  options_.runs.pop_back();
+  options_.runs.clear();
+  options_.imports = {addFile("mine_plain_local.csv", "id,error\n1,0.5\n")};
   writeReportData(options_);
-  EXPECT_FALSE(is_there("tables/local_comparisons.csv"));
+  EXPECT_FALSE(is_there("tables/local_comparisons.csv")) << "of one, with no misalignment known";
   EXPECT_FALSE(is_there("figures/local_medians.pdf"));
   EXPECT_FALSE(is_there("figures/local_histograms_bad.png"));
   EXPECT_TRUE(is_there("tables/local_scores.csv"));
@@ -230,7 +232,7 @@ TEST_F(ReportTest, ShowsTrialsAndSweepsOfASeries) {
   addFile("series/series.csv",
           "folder,parameter,value,trial\nvoxel_leaf=0.1/trial_1,voxel_leaf,0.1,1\n"
           "voxel_leaf=0.1/trial_2,voxel_leaf,0.1,2\nvoxel_leaf=0.4/trial_1,voxel_leaf,0.4,1\n"
-          "seed=0.1,seed,0.1,1\n");
+          "seed=0.1,seed,0.1,1\nseed=0.1/trial_2,seed,0.1,2\nseed=9,seed,9,1\n");  // not begun
   options_.runs = {"mine=" + folder_.file("series"), addRun("other", 0.2)};
   writeReportData(options_);
   Rows trials = readCsv(options_.output + "/tables/local_trials.csv");
