@@ -51,6 +51,8 @@ def differences(section):
     medians = {(row['method'], row['selection']): row for row in rows_of(section['tables']['scores'])
                if row['level'] in ('sequence', 'total')}
     for row in rows_of(section['tables'].get('comparisons', {'columns': [], 'rows': []})):
+        if (row['a'], row['b']) != ('old', 'new'):
+            continue  # one of them against doing nothing
         old, new = (medians[method, row['selection']] for method in ('old', 'new'))
         yield {'sequence': row['selection'], 'kind': section['kind'], 'problems': row['problems'], 'pairs': row['pairs'],
                'old': old['median'], 'new': new['median'], 'difference': new['median'] - old['median'],

@@ -14,8 +14,7 @@ LONGEST_LABEL = 16  # letters of a method's name within a chart
 SMALLEST = 1e-4  # errors below it are drawn there on a logarithmic axis
 FEWEST_OF_A_LINE = 5  # problems in each bin that a line joins: between the medians of fewer it would mean nothing
 
-
-BASELINE = Ink(NEUTRAL, 'bow', '6 4')
+BASELINE = Ink(NEUTRAL, 'bar', '6 4')  # unlike every method's
 
 
 def inks_for(names):
@@ -27,6 +26,18 @@ def inks_of(section):
     """How the methods are drawn, and the baseline, which is none."""
     inks = inks_for([method['method'] for method in section['methods']])
     return {**inks, **({section['baseline']: BASELINE} if section['baseline'] else {})}
+
+
+def untouched_of(section, scores):
+    """The median error of the baseline on all problems; None where it is not known."""
+    known = [row['median'] for row in scores if row['method'] == section['baseline'] and row['selection'] == 'total']
+    return known[0] if known else None
+
+
+def draw_untouched(chart, value):
+    """A line across a chart whose y is the error, at the baseline's."""
+    if value is not None and chart.y.low <= value <= chart.y.high:
+        chart.curve([(chart.x.low, value), (chart.x.high, value)], BASELINE)
 
 
 def rows_of(table):
@@ -149,7 +160,7 @@ def histogram(method, ink, name):
     if method['stddev']:
         steps = [method['max'] * i / 80 for i in range(81)]
         chart.polyline([chart.at(x, total * width * gaussian(x, method['mean'], method['stddev'])) for x in steps], 'gaussian', None)
-    if method['median'] is not None:
+    if method['median'] is not None and method['median'] <= method['max']:
         chart.line(chart.at(method['median'], 0), chart.at(method['median'], chart.y.high), 'median',
                    title=f'median {error(method["median"])}')
     if method['above']:
@@ -206,7 +217,7 @@ class Rows(Chart):
             x = [self.at(row[q], 0)[0] for q in whiskers]
             self.line((x[0], y), (x[1], y), 'whisker', ink.color, title, method)
             self.mark_cut(row[whiskers[0]], row[whiskers[1]], y, method)
-            if box:
+            if box and self.x.low <= row[box[0]] and row[box[1]] <= self.x.high:
                 self.box((row[box[0]], level - 0.3), (row[box[1]], level + 0.3), ink.color, title, 'quartiles', method)
             self.dot(row[median], level, ink, title, method)
         return self
@@ -224,7 +235,7 @@ def components(table, inks, axes, unit):
     first = {}
     for row in rows:
         row['label'] = '' if first.setdefault(row['axis'], row) is not row else row['axis']
-    widest = max([4 * max(abs(row['q25']), abs(row['q75'])) for row in rows] + [1e-6])
+    widest = max([4 * max(abs(row['q25']), abs(row['q75'])) for row in rows if row['ink'] != BASELINE] + [1e-6])
     return Rows(Linear(-widest, widest), f'error in {unit}', rows, f'errors in {unit}').draw(
         ('q05', 'q95'), ('q25', 'q75'), 'median')
 
@@ -244,9 +255,9 @@ def latencies(table, inks):
         ('q05', 'q95'), None, 'median')
 
 
-def error_over_time(points, inks):
-    """Medians of error and time, and the front of the methods that no other one beats in both."""
-    errors = [value for p in points for value in (p['low'], p['median'], p['high']) if value is not None]
+def error_over_time(points, inks, untouched=None):
+    """Medians of error and time, and the front of the methods that no other one beats in both; a line at the baseline's error."""
+    errors = [value for p in points for value in (p['low'], p['median'], p['high'], untouched) if value is not None]
     chart = Chart(Logarithmic(min(p['q05'] for p in points) / 1.5, max(p['q95'] for p in points) * 1.5),
                   Logarithmic(max(SMALLEST, min(errors)) / 1.5, max(SMALLEST, *errors) * 1.5), 's from source to reply', 'median error',
                   label='error against time')
@@ -256,6 +267,7 @@ def error_over_time(points, inks):
         stairs += [(before['time'], before['median']), (after['time'], before['median'])]
     stairs += [(front[-1]['time'], front[-1]['median']), (chart.x.high, front[-1]['median'])]
     chart.polyline([chart.at(*p) for p in [(front[0]['time'], chart.y.high), *stairs]], 'front', None)
+    draw_untouched(chart, untouched)
     for p in points:
         ink, name = inks[p['method']], p['method']
         title = (f'{name}: median error {error(p["median"])}, median time {error(p["time"])} s (q05 to q95 {error(p["q05"])} to '

@@ -110,6 +110,7 @@ def figures_of(section):
     methods = {name: ink for name, ink in inks.items() if name != section['baseline']}
     are_cut = any(shortened(name, charts.LONGEST_LABEL) != name for name in methods)
     scores = charts.rows_of(tables['scores'])
+    untouched = charts.untouched_of(section, scores)
     floors = charts.floors_of(tables)
     yield ('medians', sheet([('', charts.median_dots(scores, inks, floors, 2 * WIDTH))], inks),
            f'Median error of the {kind} problems of each sequence, with 95 % bootstrap intervals over pairs of clouds.'
@@ -119,7 +120,8 @@ def figures_of(section):
            f'Fraction of the {kind} problems that are solved, over the error up to which one counts as solved.')
     for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap'), ('over_scans', 'scan')):
         if numbers[name]:
-            yield (name, sheet([(p['selection'], charts.binned(p, inks, x_name)) for p in numbers[name]], methods),
+            drawn = inks if name != 'over_scans' else methods
+            yield (name, sheet([(p['selection'], charts.binned(p, inks, x_name)) for p in numbers[name]], drawn),
                    f'Error over the {x_name}, {kind} problems: '
                    + ('medians and quartiles; a problem that ended before keeps its last answer.' if name == 'over_scans' else
                       'medians of bins that hold equally many problems; joined, with their quartiles, where each bin holds at least '
@@ -137,9 +139,9 @@ def figures_of(section):
     if tables.get('components'):
         yield ('components', sheet([('translation', charts.components(tables['components'], inks, ['x', 'y', 'z'], 'm')),
                                     ('rotation', charts.components(tables['components'], inks, ['roll', 'pitch', 'yaw'], 'degrees'))],
-                                   methods), f'Errors along and about each axis, answered {kind} problems: median, quartiles, and the '
+                                   inks), f'Errors along and about each axis, answered {kind} problems: median, quartiles, and the '
                'quantiles 0.05 to 0.95.')
-    swept = series.sweeps(tables['sweeps']) if tables.get('sweeps') else []
+    swept = series.sweeps(tables['sweeps'], untouched) if tables.get('sweeps') else []
     if swept:
         yield ('sweeps', sheet([(chart['name'], chart['drawing']) for chart in swept]),
                f'Median error over the values of a parameter, {kind} problems, with 95 % bootstrap intervals over pairs of clouds.')
@@ -152,7 +154,7 @@ def figures_of(section):
     if latency:
         yield ('latencies', sheet([('', latency)]), f'Time from a source to its reply, {kind} problems: median, quantiles 0.05 to 0.95.')
     if numbers['times']:
-        yield ('times', sheet([('', charts.error_over_time(numbers['times'], inks))], methods if are_cut else None),
+        yield ('times', sheet([('', charts.error_over_time(numbers['times'], inks, untouched))], methods if are_cut else None),
                f'Median error against median time to a reply, {kind} problems. Dashed: the front of the methods that no other one beats '
                'in both.')
     if numbers['ranking']:

@@ -180,6 +180,7 @@ def view(section, figures):
     section['has_imports'] = any(not m['info'] for m in section['methods'])
     section['shared'] = next(shared_of(s) for s in section['selections'] if s['level'] == 'total')
     floors = charts.floors_of(present)
+    untouched = charts.untouched_of(section, scores)
     section['is_only_kind'] = all(m['planned'] is None or int(m['planned']) >= m['problems'] for m in section['methods'])
     made = {
         'inks': inks, 'floors': floors, 'parts': parts_of(section, figures),
@@ -189,7 +190,7 @@ def view(section, figures):
         'levels': pivot_of(section, published),
         'verdicts': list(verdicts_of(comparisons)),
         'audit': audit_of(section, charts.rows_of(present['audit'])) if 'audit' in present else None,
-        'matrix': matrix_of(own, comparisons) if len(own) > 2 else [],
+        'matrix': matrix_of(list(inks), comparisons) if len(own) > 2 else [],
         'ranking': svg(charts.ranking(numbers['ranking'], inks)) if numbers['ranking'] else None,
         'solved': svg(charts.solved_curves(section, inks)),
         'dependence': dependence_of(section, inks),
@@ -199,11 +200,11 @@ def view(section, figures):
         'runtime_totals': only_totals(present['runtimes']) if 'runtimes' in present else None,
         'over_scans': drawn(numbers['over_scans'], lambda panel: charts.binned(panel, inks, 'scan')),
         'covariance_totals': only_totals(present['covariances']) if 'covariances' in present else None,
-        'sweep_charts': [{'name': chart['name'], 'svg': svg(chart['drawing'])} for chart in series.sweeps(present['sweeps'])]
+        'sweep_charts': [{'name': chart['name'], 'svg': svg(chart['drawing'])} for chart in series.sweeps(present['sweeps'], untouched)]
                         if 'sweeps' in present else [],
         'calibration': svg(calibration.curves(numbers['calibration'], inks)),
         'latencies': svg(charts.latencies(present['runtimes'], inks)) if 'runtimes' in present else None,
-        'over_time': svg(charts.error_over_time(numbers['times'], inks)) if numbers['times'] else None,
+        'over_time': svg(charts.error_over_time(numbers['times'], inks, untouched)) if numbers['times'] else None,
     }
     if 'components' in present:
         made['translation'] = svg(charts.components(present['components'], inks, ['x', 'y', 'z'], 'm'))

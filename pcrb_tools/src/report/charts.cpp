@@ -13,9 +13,7 @@ constexpr std::size_t kQuantileBins = 8;
 
 Json solvedCurves(const Section& section, const std::vector<double>& thresholds) {
   Json curves = Json::array();
-  std::vector<const Entry*> entries = section.entries;
-  if (section.baseline) entries.push_back(&*section.baseline);
-  for (const Entry* entry : entries) {
+  for (const Entry* entry : section.withBaseline()) {
     Json curve;
     curve["method"] = entry->method;
     curve["fractions"] = pcrb::fractionSolved(
@@ -46,7 +44,7 @@ Json binnedErrors(const Section& section, std::optional<double> ScoredProblem::*
     Json panel;
     panel["selection"] = selection->name;
     panel["methods"] = Json::array();
-    for (const Entry* entry : section.entries) {
+    for (const Entry* entry : section.withBaseline()) {
       std::vector<double> x, y;
       for (const ScoredProblem* problem : select(*entry, *selection)) {
         if (!(problem->*property)) continue;
@@ -95,7 +93,7 @@ Json histograms(const Section& section) {
     Json panel;
     panel["selection"] = selection->name;
     panel["methods"] = Json::array();
-    for (const Entry* entry : section.entries) {
+    for (const Entry* entry : section.withBaseline()) {
       const auto errors = errorsOf(select(*entry, *selection));
       if (!errors.empty()) panel["methods"].push_back(histogramJson(entry->method, errors, end));
     }

@@ -43,18 +43,37 @@ std::string verdictOf(const Json& winner, std::size_t pairs, std::size_t family)
   return canReject(pairs, family) ? "no difference shown" : kTooFewPairs;
 }
 
-void addFamily(const Section& section, const std::vector<const Selection*>& selections,
-               Table& table) {
+using Pairing = std::pair<const Entry*, const Entry*>;
+
+/// Every two methods.
+std::vector<Pairing> pairingsOf(const Section& section) {
+  std::vector<Pairing> pairings;
+  for (auto a = section.entries.begin(); a != section.entries.end(); ++a) {
+    for (auto b = a + 1; b != section.entries.end(); ++b) pairings.emplace_back(*a, *b);
+  }
+  return pairings;
+}
+
+/// Each method and the baseline. A single run of the method that is the baseline has none.
+std::vector<Pairing> pairingsWithBaseline(const Section& section) {
+  std::vector<Pairing> pairings;
+  if (!section.baseline) return pairings;
+  for (const Entry* entry : section.entries) {
+    if (entry->method != kBaselineRun) pairings.emplace_back(entry, &*section.baseline);
+  }
+  return pairings;
+}
+
+void addFamily(const std::vector<Pairing>& pairings,
+               const std::vector<const Selection*>& selections, Table& table) {
   std::vector<Comparison> family;
   std::vector<double> p_values;
   for (const Selection* selection : selections) {
-    for (auto a = section.entries.begin(); a != section.entries.end(); ++a) {
-      for (auto b = a + 1; b != section.entries.end(); ++b) {
-        const Comparison comparison = compare(**a, **b, *selection);
-        if (comparison.pairs == 0) continue;
-        family.push_back(comparison);
-        p_values.push_back(comparison.test.p_value);
-      }
+    for (const auto& [a, b] : pairings) {
+      const Comparison comparison = compare(*a, *b, *selection);
+      if (comparison.pairs == 0) continue;
+      family.push_back(comparison);
+      p_values.push_back(comparison.test.p_value);
     }
   }
   const std::vector<double> corrected = pcrb::holmAdjusted(p_values);
@@ -103,7 +122,8 @@ Table comparisonTable(const Section& section) {
       "Which differences are real",
       "Wilcoxon's signed-rank test on the problems that both methods have, pairs of clouds as "
       "units: a's median error of each minus b's; p corrected by Holm among the totals, and among "
-      "all rows of single sequences. difference: Hodges and Lehmann's estimate, which belongs to "
+      "all rows of single sequences; those against `do nothing` are families of their own. "
+      "difference: Hodges and Lehmann's estimate, which belongs to "
       "this test: the median of the averages of all two pairs' differences.",
       {{"a"},
        {"b"},
@@ -116,8 +136,10 @@ Table comparisonTable(const Section& section) {
        {"better"},
        {"verdict"}},
       {}};
-  addFamily(section, {section.at({"total"}).front()}, table);
-  addFamily(section, section.at({"sequence"}), table);
+  for (const auto& pairings : {pairingsOf(section), pairingsWithBaseline(section)}) {
+    addFamily(pairings, {section.at({"total"}).front()}, table);
+    addFamily(pairings, section.at({"sequence"}), table);
+  }
   return table;
 }
 
@@ -138,7 +160,7 @@ Table correlationTable(const Section& section) {
       table.columns.push_back({std::string("p ") + name + suffix, Format::kProbability});
     }
   }
-  for (const Entry* entry : section.entries) {
+  for (const Entry* entry : section.withBaseline()) {
     for (const Selection* selection : section.at({"sequence", "total"})) {
       const Problems problems = select(*entry, *selection);
       if (problems.empty()) continue;

@@ -71,7 +71,7 @@ Table recallTable(const Section& section, const ReportOptions& options) {
   for (const auto& limit : options.recall_limits) {
     table.columns.push_back({limitName(limit), Format::kFraction});
   }
-  for (const Entry* entry : section.entries) {
+  for (const Entry* entry : section.withBaseline()) {
     for (const Selection& selection : section.selections) {
       const auto outcomes = outcomesForSuccess(select(*entry, selection));
       if (outcomes.empty()) continue;
@@ -117,7 +117,7 @@ Table componentTable(const Section& section) {
   for (const char* name : {"q05", "q25", "median", "q75", "q95"}) {
     table.columns.push_back({name, Format::kError});
   }
-  for (const Entry* entry : section.entries) {
+  for (const Entry* entry : section.withBaseline()) {
     for (const Selection* selection : section.at({"sequence", "total"})) {
       const Problems problems = select(*entry, *selection);
       for (std::size_t axis = 0; axis < 6; ++axis) {

@@ -24,6 +24,7 @@ std::map<std::string, Tests> testsBySelection(const Table& comparisons) {
   const TableReader reader(comparisons);
   for (const auto& row : comparisons.rows) {
     const std::string a = reader.text(row, "a"), b = reader.text(row, "b");
+    if (b == kBaseline) continue;  // which is no method: it is never marked
     Tests& found = tests[reader.text(row, "selection")];
     const std::string better = reader.text(row, "better");
     if (!better.empty()) found.worse.insert({better == a ? b : a, better});

@@ -27,6 +27,13 @@ std::string nameOf(const pcrb::ProblemKey& key) {
          key.problem_id;
 }
 
+Untouched untouchedOf(const pcrb::Presentation& presentation, const Eigen::Vector3d& centroid) {
+  const Transform residual = presentation.residual(presentation.guess);
+  const pcrb::PoseComponents components = pcrb::poseComponents(residual, centroid);
+  return {pcrb::rotationAngle(residual.linear()), components.translation.norm(),
+          components.values()};
+}
+
 /// What the run store has of a pose error, from which this one was found anew, must be the same.
 void requireSameError(const ScoredProblem& problem, const Transform& residual,
                       const pcrb::PoseComponents& components) {
@@ -154,6 +161,7 @@ void ProblemDetails::addComponents(const pcrb::RunInfo& info, ScoredProblem& pro
       pcrb::poseComponents(residual, posed.source->metric->centroid());
   requireSameError(problem, residual, components);
   problem.components = components.values();
+  problem.untouched = untouchedOf(presentation, posed.source->metric->centroid());
   if (!problem.covariance) return;
   problem.judged = pcrb::judgeCovariance(
       pcrb::poseErrorVector(*problem.reply, presentation.ideal()), *problem.covariance);

@@ -12,16 +12,26 @@ namespace {
 
 constexpr std::size_t kWorstPerMethod = 10;
 
+/// The methods, and the baseline, where it has all problems that these have.
+std::vector<const Entry*> rankedEntries(const Section& section) {
+  std::set<pcrb::ProblemKey> keys;
+  for (const Entry* entry : section.entries) {
+    for (const ScoredProblem& problem : entry->problems) keys.insert(problem.key);
+  }
+  const bool is_known = section.baseline && section.baseline->problems.size() == keys.size();
+  return is_known ? section.withBaseline() : section.entries;
+}
+
 /// Each method's median error of each pair of clouds, over the problems that all methods have.
-std::vector<std::vector<double>> mediansByPair(const Section& section) {
-  const std::size_t methods = section.entries.size();
+std::vector<std::vector<double>> mediansByPair(const std::vector<const Entry*>& entries) {
+  const std::size_t methods = entries.size();
   struct Shared {
     std::string pair;
     std::vector<std::vector<double>> errors;  // of all trials
   };
   std::map<pcrb::ProblemKey, Shared> by_problem;
   for (std::size_t i = 0; i < methods; ++i) {
-    for (const ScoredProblem& problem : section.entries[i]->problems) {
+    for (const ScoredProblem& problem : entries[i]->problems) {
       Shared& shared = by_problem[problem.key];
       shared.pair = problem.pair;
       shared.errors.resize(methods);
@@ -63,10 +73,10 @@ struct Ranked {
   double rank;
 };
 
-std::vector<Ranked> meanRanks(const Section& section,
+std::vector<Ranked> meanRanks(const std::vector<const Entry*>& entries,
                               const std::vector<std::vector<double>>& medians) {
   std::vector<Ranked> ranked;
-  for (const Entry* entry : section.entries) ranked.push_back({entry->method, 0.0});
+  for (const Entry* entry : entries) ranked.push_back({entry->method, 0.0});
   for (const auto& row : medians) {
     const std::vector<double> ranks = ranksOf(row);
     for (std::size_t i = 0; i < ranks.size(); ++i) {
@@ -154,9 +164,10 @@ Json describeWorst(const Section& section, const Entry& entry, const ScoredProbl
 
 Json rankingOf(const Section& section, const Table& comparisons) {
   constexpr std::size_t kFewestMethods = 3;
-  const auto medians = mediansByPair(section);
+  const auto entries = rankedEntries(section);
+  const auto medians = mediansByPair(entries);
   if (section.entries.size() < kFewestMethods || medians.empty()) return nullptr;
-  const std::vector<Ranked> ranked = meanRanks(section, medians);
+  const std::vector<Ranked> ranked = meanRanks(entries, medians);
   Json json;
   json["pairs"] = medians.size();
   json["methods"] = Json::array();

@@ -98,17 +98,11 @@ Table scoreTable(const Section& section, const ReportOptions& options) {
   }
   table.columns.push_back({"pairs", Format::kCount});
   table.note += noteOnSharedProblems(section);
-  for (const Entry* entry : section.entries) {
+  for (const Entry* entry : section.withBaseline()) {
     for (const Selection& selection : section.selections) {
       if (!select(*entry, selection).empty()) {
         table.rows.push_back(scoreRow(*entry, selection, options));
       }
-    }
-  }
-  if (!section.baseline) return table;
-  for (const Selection& selection : section.selections) {
-    if (!select(*section.baseline, selection).empty()) {
-      table.rows.push_back(scoreRow(*section.baseline, selection, options));
     }
   }
   return table;

@@ -13,6 +13,13 @@
 
 namespace pcrb_tools {
 
+/// What the initial guess of a problem leaves.
+struct Untouched {
+  double rotation_error = 0.0;            ///< rad
+  double translation_error = 0.0;         ///< m, of the source's centroid
+  std::array<double, 6> components = {};  ///< x y z (m) roll pitch yaw (rad)
+};
+
 /// One problem and how a method did on it. What a source of results does not say is empty.
 struct ScoredProblem {
   pcrb::ProblemKey key;
@@ -33,6 +40,7 @@ struct ScoredProblem {
   std::optional<double> finished;                   ///< s since the epoch
   std::optional<pcrb::Transform> reply;             ///< the accepted pose, as it was sent
   std::optional<std::array<double, 6>> components;  ///< x y z (m) roll pitch yaw (rad)
+  std::optional<Untouched> untouched;               ///< where clouds were read
   std::vector<pcrb::ScanRecord> scans;              ///< of a localization node
   std::optional<pcrb::PoseCovariance> covariance;   ///< of that pose
   std::optional<pcrb::JudgedCovariance> judged;     ///< where it could be judged

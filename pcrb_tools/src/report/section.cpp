@@ -87,15 +87,40 @@ void addSelections(const std::string& root, Section& section) {
   addTotals(sequences, section.selections);
 }
 
+/// The problem as if its initial guess were the reply, as far as that is known.
+ScoredProblem untouchedProblem(const ScoredProblem& problem) {
+  ScoredProblem untouched;
+  untouched.key = problem.key;
+  untouched.source = problem.source;
+  untouched.target = problem.target;
+  untouched.pair = problem.pair;
+  untouched.overlap = problem.overlap;
+  untouched.initial_misalignment = problem.initial_misalignment;
+  untouched.error = *problem.initial_misalignment;
+  if (problem.untouched) {
+    untouched.rotation_error = problem.untouched->rotation_error;
+    untouched.translation_error = problem.untouched->translation_error;
+    untouched.components = problem.untouched->components;
+  } else if (!problem.isAnswered()) {  // it was scored with its initial guess
+    untouched.rotation_error = problem.rotation_error;
+    untouched.translation_error = problem.translation_error;
+  }
+  return untouched;
+}
+
 /// Each problem of some entry once, with its initial misalignment as its error.
 std::optional<Entry> makeBaseline(const std::vector<const Entry*>& entries) {
   std::map<pcrb::ProblemKey, ScoredProblem> problems;
   for (const Entry* entry : entries) {
     for (const ScoredProblem& problem : entry->problems) {
       if (!problem.initial_misalignment) continue;
-      ScoredProblem& untouched = problems.emplace(problem.key, problem).first->second;
-      untouched.outcome = pcrb::Outcome::kReplied;
-      untouched.error = *untouched.initial_misalignment;
+      const auto known = problems.find(problem.key);
+      if (known == problems.end()) {
+        problems.emplace(problem.key, untouchedProblem(problem));
+      } else if (!known->second.components) {
+        const ScoredProblem other = untouchedProblem(problem);
+        if (other.rotation_error) known->second = other;  // it knows more
+      }
     }
   }
   if (problems.empty()) return std::nullopt;
@@ -116,6 +141,12 @@ void dropBaselineRun(Section& section) {
 }
 
 }  // namespace
+
+std::vector<const Entry*> Section::withBaseline() const {
+  std::vector<const Entry*> all = entries;
+  if (baseline) all.push_back(&*baseline);
+  return all;
+}
 
 std::vector<const Selection*> Section::at(const std::set<std::string>& levels) const {
   std::vector<const Selection*> found;

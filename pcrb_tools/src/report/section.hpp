@@ -38,6 +38,9 @@ struct Section {
   /// whatever their name: a tool drew them, or ids are others.
   std::set<std::pair<std::string, std::string>> own_problems;
 
+  /// The entries, and behind them the baseline, where there is one: what has a row or a mark.
+  std::vector<const Entry*> withBaseline() const;
+
   /// Selections of some levels.
   std::vector<const Selection*> at(const std::set<std::string>& levels) const;
 };

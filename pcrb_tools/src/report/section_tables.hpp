@@ -45,7 +45,7 @@ inline double smallestP(std::size_t pairs) {
 /// Wilcoxon's test of every two methods on the problems that both have, pairs of clouds as units
 /// (their median errors), over everything and per sequence; Holm's correction within either family.
 /// The verdict names the better method, or says that none is shown, or that so few pairs could show
-/// none. No rows for a single method.
+/// none. Then each method against the baseline, in two families of their own.
 Table comparisonTable(const Section& section);
 
 /// Whether a method's score comes from what its client remembered: the first problem that was posed

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
@@ -185,7 +188,40 @@ TEST_F(ReportComparisonTest, ShowsBesideTheMethodsWhatDoingNothingScores) {
   EXPECT_EQ(rows.back().at("median"), "1");
   EXPECT_EQ(rows.back().at("problems"), "40");
   EXPECT_EQ(rows.back().at("replied"), "");
-  EXPECT_FALSE(has(read(options_.output + "/tables/local_comparisons.csv"), "do nothing"));
+}
+
+TEST_F(ReportComparisonTest, TestsEachMethodAgainstDoingNothingInFamiliesOfTheirOwn) {
+  options_.runs = {addRun("good", 0.1), addRun("bad", 3.0)};
+  const std::string text = page();
+  std::set<std::string> verdicts;
+  double corrected = 0.0;
+  for (auto& row : readCsv(options_.output + "/tables/local_comparisons.csv")) {
+    verdicts.insert(row["a"] + " " + row["b"] + ": " + row["verdict"]);
+    corrected = *pcrb::parseDouble(row["corrected p"]);
+  }
+  EXPECT_EQ(verdicts,
+            (std::set<std::string>{"good bad: good is better", "good do nothing: good is better",
+                                   "bad do nothing: do nothing is better"}));
+  EXPECT_NEAR(corrected, 2 * 2 * std::pow(0.5, 20), 1e-12) << "of a family of two, 20 pairs";
+  EXPECT_TRUE(has(text, "do nothing is better than bad"));
+  options_.runs = {addRun("alone", 0.1)};
+  EXPECT_TRUE(has(page(), "alone is better than do nothing"));
+}
+
+TEST_F(ReportComparisonTest, HasDoingNothingInEveryTableAndChartOfErrors) {
+  options_.runs = {addRun("good", 0.1), addRun("fair", 0.2), addRun("flaky", 0.3, 40)};
+  const std::string text = page();
+  for (const std::string table : {"scores", "comparisons", "correlations", "recall"}) {
+    EXPECT_TRUE(has(read(options_.output + "/tables/local_" + table + ".csv"), "do nothing"))
+        << table;
+  }
+  const Json charts = Json::parse(read(options_.output + "/report.json"))["sections"][0]["charts"];
+  for (const std::string chart : {"solved", "over_misalignment", "over_overlap", "histograms"}) {
+    EXPECT_TRUE(has(charts[chart].dump(), "do nothing")) << chart;
+  }
+  EXPECT_EQ(charts["ranking"]["methods"][3]["method"], "do nothing");
+  EXPECT_EQ(charts["ranking"]["methods"][3]["rank"], 3.5) << "flaky has no reply";
+  EXPECT_TRUE(has(text, "data-method=\"do nothing\""));
 }
 
 }  // namespace

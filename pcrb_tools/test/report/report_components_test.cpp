@@ -14,6 +14,7 @@
 #include "pcrb_core/run/results_store.hpp"
 #include "pcrb_core/run/run_plan.hpp"
 #include "report/problem_details.hpp"
+#include "report/section_tables.hpp"
 #include "run/some_results.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -77,6 +78,23 @@ TEST_F(ProblemDetailsTest, AreTheErrorsOfTheReplyAlongAndAboutEachAxis) {
   const std::array<double, 6> expected{0.1, 0.0, -0.3, 0.0, 0.0, 0.02};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(components[i], expected[i], 1e-4) << i;
   EXPECT_GT(entry_.problems[0].error_per_metre.value(), 1.0 / 20.0);
+}
+
+TEST_F(ProblemDetailsTest, KnowWhatDoingNothingLeaves) {
+  entry_.problems[0].initial_misalignment = 0.5;
+  addComponents();
+  const std::vector<Entry> entries{entry_};
+  const auto sections = makeSections(entries, "");
+  const ScoredProblem& untouched = sections.at(0).baseline.value().problems.at(0);
+  EXPECT_NEAR(untouched.rotation_error.value(), 0.4, 1e-4);
+  EXPECT_NEAR(untouched.translation_error.value(), std::sqrt(0.25 + 0.04 + 0.01), 1e-4);
+  ReportOptions options;
+  options.recall_limits = {{0.6, 23.0}, {0.5, 23.0}, {0.6, 22.0}};  // 0.4 rad are 22.9°
+  const auto recall = recallTable(sections[0], options).rows.back();
+  EXPECT_EQ(Json(recall).dump(), R"(["do nothing","total",1,1.0,0.0,0.0])");
+  const auto axis = componentTable(sections[0]).rows.at(12);
+  EXPECT_EQ(axis[0].get<std::string>() + " " + axis[2].get<std::string>(), "do nothing x");
+  EXPECT_NEAR(axis[6].get<double>(), 0.5, 1e-4);
 }
 
 TEST_F(ProblemDetailsTest, FollowTheSecretOfTheShardThatPosedTheProblem) {
