@@ -28,9 +28,12 @@ int main(int argc, char** argv) {
   double rate = 2.0;
   app.add_option("folder", options.sequence.folder, "<root>/<data set>/<sequence>")->required();
   app.add_option("-o,--output", options.bag.output, "bag to write")->required();
-  app.add_option("--rate", rate, "scans per second")
-      ->check(CLI::Range(1e-3, 1e3))
-      ->capture_default_str();
+  auto* given_rate = app.add_option("--rate", rate, "scans per second")
+                         ->check(CLI::Range(1e-3, 1e3))
+                         ->capture_default_str();
+  app.add_flag("--sensor-rate", options.keeps_time,
+               "play scans as far apart as the timestamps in their names")
+      ->excludes(given_rate);
   app.add_option("--map", options.sequence.map_file,
                  "file of a map in the sequence's frame [a map that grows]");
   app.add_option("--map-leaf", options.sequence.map_leaf,

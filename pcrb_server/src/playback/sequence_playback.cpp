@@ -24,28 +24,6 @@ fs::path pathOf(const SequenceOptions& options) {
   return fs::absolute(options.folder + "/").lexically_normal().parent_path();
 }
 
-/// The scans of a folder: all clouds but those that are not wanted.
-std::vector<std::string> findScans(const SequenceOptions& options) {
-  std::vector<std::string> names = findClouds(options.folder);
-  const auto remove = [&names](const std::string& name) {
-    const auto end = std::remove(names.begin(), names.end(), name);
-    const bool was_there = end != names.end();
-    names.erase(end, names.end());
-    return was_there;
-  };
-  for (const std::string& name : options.excluded) {
-    if (remove(name)) continue;
-    throw InvalidParameter("found no cloud `" + name + "` in " + options.folder +
-                           ", expected the name of one of its .pcd files");
-  }
-  if (!options.map_file.empty()) {
-    const fs::path map = fs::absolute(options.map_file).lexically_normal();
-    if (map.parent_path() == pathOf(options)) remove(map.filename());
-  }
-  if (names.empty()) throw InvalidFile(options.folder, 0, "no scan", "a sequence's .pcd files");
-  return names;
-}
-
 double leafOf(const SequenceOptions& options) {
   if (options.map_leaf > 0.0) return options.map_leaf;
   const fs::path data_set = pathOf(options).parent_path();
@@ -56,7 +34,7 @@ class SequencePlayback : public Playback {
  public:
   explicit SequencePlayback(const SequenceOptions& options)
       : options_(options),
-        names_(findScans(options)),
+        names_(scansOf(options)),
         leaf_(leafOf(options)),
         frames_(options.map_frame),
         growing_(leaf_, options.map_points) {
@@ -200,6 +178,27 @@ class SequencePlayback : public Playback {
 };
 
 }  // namespace
+
+std::vector<std::string> scansOf(const SequenceOptions& options) {
+  std::vector<std::string> names = findClouds(options.folder);
+  const auto remove = [&names](const std::string& name) {
+    const auto end = std::remove(names.begin(), names.end(), name);
+    const bool was_there = end != names.end();
+    names.erase(end, names.end());
+    return was_there;
+  };
+  for (const std::string& name : options.excluded) {
+    if (remove(name)) continue;
+    throw InvalidParameter("found no cloud `" + name + "` in " + options.folder +
+                           ", expected the name of one of its .pcd files");
+  }
+  if (!options.map_file.empty()) {
+    const fs::path map = fs::absolute(options.map_file).lexically_normal();
+    if (map.parent_path() == pathOf(options)) remove(map.filename());
+  }
+  if (names.empty()) throw InvalidFile(options.folder, 0, "no scan", "a sequence's .pcd files");
+  return names;
+}
 
 std::unique_ptr<Playback> playSequence(const SequenceOptions& options) {
   return std::make_unique<SequencePlayback>(options);

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
+#include <vector>
 
 #include "bags/problem_key.hpp"
 #include "bags/scene_bag.hpp"
@@ -10,6 +12,8 @@
 #include "common/progress.hpp"
 #include "common/sequence_paths.hpp"
 #include "common/tool_main.hpp"
+#include "pcrb_core/datasets/cloud_file.hpp"
+#include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
@@ -48,6 +52,7 @@ pcrb::DerivedFile describeBag(const SequenceBagOptions& options) {
   bag.setParameter("map_points", std::to_string(sequence.map_points));
   bag.setParameter("truth", trueOrFalse(sequence.publish_ground_truth));
   bag.setParameter("frames", sequence.map_frame + ' ' + sequence.scan_frame);
+  if (options.keeps_time) bag.setParameter("times", "of the names");
   return bag;
 }
 
@@ -73,15 +78,45 @@ bool isComplete(const pcrb::DerivedFile& bag, bool force, const std::string& com
   return false;
 }
 
+/// When each scene is due, from the first one's on, s.
+std::vector<double> regularTimes(std::size_t count, double period) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < count; ++i) times.push_back(period * static_cast<double>(i));
+  return times;
+}
+
+/// The same as the sensor gave the scans.
+std::vector<double> timesOfNames(const pcrb::SequenceOptions& sequence) {
+  std::vector<double> times;
+  std::optional<pcrb::Stamp> first, last;
+  for (const std::string& name : pcrb::scansOf(sequence)) {
+    const auto stamp = pcrb::stampOfFileName(name);
+    const std::string path = sequence.folder + "/" + name;
+    if (!stamp) {
+      throw pcrb::InvalidFile(path, 0, "a name without a timestamp",
+                              "one, to play scans at the sensor's rate (or --rate)");
+    }
+    if (last && *stamp <= *last) {
+      throw pcrb::InvalidFile(path, 0, "a timestamp that is not later than the scan's before it",
+                              "timestamps that increase");
+    }
+    if (!first) first = stamp;
+    last = stamp;
+    times.push_back(static_cast<double>(*stamp - *first) * 1e-9);
+  }
+  return times;
+}
+
 /// Plays everything once into the bag.
 void writeBag(pcrb::Playback& playback, const BagOptions& options, const std::string& unit,
+              const std::vector<double>& times,
               const std::function<void(const pcrb::Scene&)>& on_scene) {
   const Interruption interruption;
   SceneBag bag(options.output, options.compress);
   Progress progress(fs::path(options.output).filename().string(), unit, playback.size());
   for (std::size_t i = 0; i < playback.size(); ++i) {
     Interruption::check();
-    const ros::Duration since_start(options.period * static_cast<double>(i));
+    const ros::Duration since_start(times.at(i));
     const pcrb::Scene scene = playback.next(ros::Time(kBagStart, 0) + since_start);
     bag.write(scene);
     on_scene(scene);
@@ -98,7 +133,9 @@ void runSequenceBagTool(const SequenceBagOptions& options) {
   if (isComplete(bag, options.bag.force, options.scans)) return;
   const auto playback = pcrb::playSequence(options.sequence);
   std::string scans;
-  writeBag(*playback, options.bag, "scans",
+  const auto times = options.keeps_time ? timesOfNames(options.sequence)
+                                        : regularTimes(playback->size(), options.bag.period);
+  writeBag(*playback, options.bag, "scans", times,
            [&scans](const pcrb::Scene& scene) { appendScan(scans, scene); });
   if (!options.scans.empty()) pcrb::writeFileAtomically(options.scans, scans);
   bag.record();
@@ -129,7 +166,8 @@ void runProblemsBagTool(const ProblemsBagOptions& given) {
                  problems.secret,
                  {}};
   const auto playback = pcrb::playProblems(problems);
-  writeBag(*playback, options.bag, "problems", [&key](const pcrb::Scene& scene) {
+  const auto times = regularTimes(playback->size(), options.bag.period);
+  writeBag(*playback, options.bag, "problems", times, [&key](const pcrb::Scene& scene) {
     key.rows[static_cast<pcrb::Stamp>(scene.stamp.toNSec())] = {scene.problem->problem_id,
                                                                 scene.name};
   });

@@ -19,7 +19,9 @@ struct BagOptions {
 struct SequenceBagOptions {
   BagOptions bag;
   pcrb::SequenceOptions sequence;
-  std::string scans;  ///< file for score_poses: which scan has which stamp; empty = none
+  std::string scans;        ///< file for score_poses: which scan has which stamp; empty = none
+  bool keeps_time = false;  ///< scans are as far apart as the timestamps in their names, whatever
+                            ///< the period
 };
 
 /// What `problems_to_bag` is asked for.
@@ -33,7 +35,9 @@ struct ProblemsBagOptions {
 
 /// Writes what replay shows of a sequence as a bag. A bag that is complete and unchanged is kept.
 ///
-/// @throws pcrb::Error  if the sequence or an output is not as it should be.
+/// @throws pcrb::Error  if the sequence or an output is not as it should be; to keep time, if a
+/// name
+///                      has no timestamp, or one that is not later than the one before.
 void runSequenceBagTool(const SequenceBagOptions& options);
 
 /// Writes what replay shows of a problem file as a bag, or, without truth, what a client of the

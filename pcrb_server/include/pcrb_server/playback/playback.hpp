@@ -51,6 +51,10 @@ struct SequenceOptions {
   double initialpose_settle = 0.1;  ///< s from the initial pose to the first scan
 };
 
+/// The scans of a sequence in the order of its playback: all clouds but those that are none.
+/// @throws Error  if the folder or a name is wrong, or there is no scan.
+std::vector<std::string> scansOf(const SequenceOptions& options);
+
 /// @throws Error  if the folder, a name or the map is wrong, or, without ground truth, if the first
 /// cloud
 ///                has no viewpoint.
