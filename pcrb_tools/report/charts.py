@@ -28,16 +28,20 @@ def inks_of(section):
     return {**inks, **({section['baseline']: BASELINE} if section['baseline'] else {})}
 
 
-def untouched_of(section, scores):
-    """The median error of the baseline on all problems; None where it is not known."""
-    known = [row['median'] for row in scores if row['method'] == section['baseline'] and row['selection'] == 'total']
+UNTOUCHED = 'do nothing'  # the baseline, where it is a line of no problem's own
+
+
+def untouched_of(scores, selection='total'):
+    """The median error of the baseline on a selection's problems; None where it is not known."""
+    known = [row['median'] for row in scores if row['method'] == UNTOUCHED and row['selection'] == selection]
     return known[0] if known else None
 
 
 def draw_untouched(chart, value):
     """A line across a chart whose y is the error, at the baseline's."""
     if value is not None and chart.y.low <= value <= chart.y.high:
-        chart.curve([(chart.x.low, value), (chart.x.high, value)], BASELINE)
+        chart.curve([(chart.x.low, value), (chart.x.high, value)], BASELINE, method=UNTOUCHED)
+        chart.touch(chart.x.high, value, BASELINE.color, f'{UNTOUCHED}: median {error(value)}', UNTOUCHED)
 
 
 def rows_of(table):
@@ -125,13 +129,16 @@ def swatch(ink):
     return drawing
 
 
-def binned(panel, inks, x_name):
-    """Medians of the error over a property, the quartiles as a band; scans follow one another, so they are always joined."""
+def binned(panel, inks, x_name, untouched=None):
+    """Medians of the error over a property, the quartiles as a band; scans follow one another, so they are always joined, and
+    the baseline, which has none, is a line."""
     bins = [b for method in panel['methods'] for b in method['bins']]
-    top = max(max(b['q75'] for b in bins), 10 * SMALLEST)
-    low = max(SMALLEST, min(b['q25'] for b in bins))
+    line = [] if untouched is None else [untouched]
+    top = max([b['q75'] for b in bins] + line + [10 * SMALLEST])
+    low = max(SMALLEST, min([b['q25'] for b in bins] + line))
     chart = Chart(Linear(min(b['low'] for b in bins), max(b['high'] for b in bins)), Logarithmic(low / 1.2, top * 1.2),
                   x_name, 'error', label=f'error over {x_name}, {panel["selection"]}')
+    draw_untouched(chart, untouched)
     for method in panel['methods']:
         name, ink = method['method'], inks[method['method']]
         middle = [((b['low'] + b['high']) / 2, b) for b in method['bins']]

@@ -110,7 +110,7 @@ def figures_of(section):
     methods = {name: ink for name, ink in inks.items() if name != section['baseline']}
     are_cut = any(shortened(name, charts.LONGEST_LABEL) != name for name in methods)
     scores = charts.rows_of(tables['scores'])
-    untouched = charts.untouched_of(section, scores)
+    untouched = charts.untouched_of(scores)
     floors = charts.floors_of(tables)
     yield ('medians', sheet([('', charts.median_dots(scores, inks, floors, 2 * WIDTH))], inks),
            f'Median error of the {kind} problems of each sequence, with 95 % bootstrap intervals over pairs of clouds.'
@@ -120,8 +120,8 @@ def figures_of(section):
            f'Fraction of the {kind} problems that are solved, over the error up to which one counts as solved.')
     for name, x_name in (('over_misalignment', 'initial misalignment'), ('over_overlap', 'overlap'), ('over_scans', 'scan')):
         if numbers[name]:
-            drawn = inks if name != 'over_scans' else methods
-            yield (name, sheet([(p['selection'], charts.binned(p, inks, x_name)) for p in numbers[name]], drawn),
+            yield (name, sheet([(p['selection'], charts.binned(p, inks, x_name, charts.untouched_of(scores, p['selection'])
+                                                               if name == 'over_scans' else None)) for p in numbers[name]], inks),
                    f'Error over the {x_name}, {kind} problems: '
                    + ('medians and quartiles; a problem that ended before keeps its last answer.' if name == 'over_scans' else
                       'medians of bins that hold equally many problems; joined, with their quartiles, where each bin holds at least '

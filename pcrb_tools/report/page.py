@@ -180,7 +180,7 @@ def view(section, figures):
     section['has_imports'] = any(not m['info'] for m in section['methods'])
     section['shared'] = next(shared_of(s) for s in section['selections'] if s['level'] == 'total')
     floors = charts.floors_of(present)
-    untouched = charts.untouched_of(section, scores)
+    untouched = charts.untouched_of(scores)
     section['is_only_kind'] = all(m['planned'] is None or int(m['planned']) >= m['problems'] for m in section['methods'])
     made = {
         'inks': inks, 'floors': floors, 'parts': parts_of(section, figures),
@@ -198,7 +198,8 @@ def view(section, figures):
         'overlaps': drawn(numbers['overlaps'], charts.overlaps),
         'recall_totals': only_totals(present['recall']) if 'recall' in present else None,
         'runtime_totals': only_totals(present['runtimes']) if 'runtimes' in present else None,
-        'over_scans': drawn(numbers['over_scans'], lambda panel: charts.binned(panel, inks, 'scan')),
+        'over_scans': drawn(numbers['over_scans'], lambda panel: charts.binned(
+            panel, inks, 'scan', charts.untouched_of(scores, panel['selection']))),
         'covariance_totals': only_totals(present['covariances']) if 'covariances' in present else None,
         'sweep_charts': [{'name': chart['name'], 'svg': svg(chart['drawing'])} for chart in series.sweeps(present['sweeps'], untouched)]
                         if 'sweeps' in present else [],

@@ -85,6 +85,11 @@ TEST_F(ReportScansTest, HasTheErrorAfterEachScanAndSaysNothingOfOtherRuns) {
   EXPECT_EQ(bins[0].at("median"), 0.5);
   EXPECT_EQ(bins[2].at("median"), 0.1);  // the scan without an answer keeps the last one
   EXPECT_EQ(bins[5].at("median"), 0.2);
+  runReportTool(options_);
+  const std::string page = read(options_.output + "/index.html");
+  const std::string line = "do nothing: median 0.300<";
+  EXPECT_NE(page.find(line, page.find("id=\"local-settling\"")), std::string::npos);
+  EXPECT_NE(page.find(line, page.find("id=\"local-times\"")), std::string::npos);
   options_.runs = {addRun("other", 0.1)};
   writeReportData(options_);
   EXPECT_FALSE(std::filesystem::exists(options_.output + "/tables/local_settling.csv"));
