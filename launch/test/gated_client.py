@@ -20,6 +20,10 @@ class Run:
     def ended(self):
         return 'summary' in self.client.newest or rospy.is_shutdown()
 
+    def rows(self):
+        """What is known here of what the server has stored: it says a result when it has it."""
+        return self.client.results
+
 
 if __name__ == '__main__':
     rospy.init_node('gated_client')
