@@ -47,9 +47,8 @@ struct Drift {
   double rotation_degrees_per_metre = 0.0;  ///< r_rel
 };
 
-/// @param lengths  m, each > 0; empty = KITTI's 100, 200 … 800 m, divided by 10 until one of them
-/// is
-///                 shorter than the path. Those that are longer have no segments, as in KITTI's.
+/// @param lengths  m, each > 0; empty = KITTI's 100, 200 … 800 m, divided by 10 until the path is
+///                 longer than one of them. Those that are longer have no segments, as in KITTI's.
 /// @param step     0 = KITTI's 10, or 1 for fewer than 100 poses.
 /// @throws InvalidParameter  as absolutePoseErrors(), and for a length that is not > 0.
 /// Source: Geiger, Lenz, Urtasun, CVPR 2012, and the devkit of the odometry benchmark.
