@@ -28,8 +28,7 @@ class BridgeTest(BridgeTestCase):
         bridge = self.bridge(server, settle='nth', settle_count=updates, **{**patient, **parameters})
         rows = self.rows_of_bridge(server, bridge)
         self.assertEqual(self.answers_used(server), {key: updates for key in rows})
-        # On a busy machine a node may take in a scan whose answer comes too late to be seen: one step more of many.
-        self.assert_same_scores(rows, self.rows_of_algorithm(second(summary_hold_time=0.0), algorithm, updates, COVARIANCE), 0.1)
+        self.assert_same_scores(rows, self.rows_of_algorithm(second(summary_hold_time=0.0), algorithm, updates, COVARIANCE), 0.05)
         return server, rows
 
     def answers_used(self, server):
