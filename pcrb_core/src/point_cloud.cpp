@@ -97,7 +97,7 @@ __attribute__((target("avx512f"))) inline __m256 lowHalf(__m512 values) {
   return _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(kAll, _mm512_castps_pd(values), 0));
 }
 
-__attribute__((target("avx512f"))) inline __m512 joined(__m256 low, __m256 high) {
+__attribute__((target("avx512f"))) inline __m512 fromHalves(__m256 low, __m256 high) {
   const __m512d lower =
       _mm512_maskz_insertf64x4(kAll, _mm512_setzero_pd(), _mm256_castps_pd(low), 0);
   return _mm512_castpd_ps(_mm512_maskz_insertf64x4(kAll, lower, _mm256_castps_pd(high), 1));
@@ -125,8 +125,8 @@ __attribute__((target("avx512f"))) void moveBlocks(const float* points, std::siz
       const double* c = columns + axis;
       q[axis] = _mm512_maskz_cvtpd_ps(kAll, c[0] * p[0] + c[4] * p[1] + c[8] * p[2] + c[12]);
     }
-    const __m512 xy = joined(q[0], q[1]);
-    const __m512 z = joined(q[2], q[2]);
+    const __m512 xy = fromHalves(q[0], q[1]);
+    const __m512 z = fromHalves(q[2], q[2]);
     _mm512_storeu_ps(out, _mm512_permutex2var_ps(xy, front, z));
     const __m256 rest = lowHalf(_mm512_permutex2var_ps(xy, back, z));
     _mm256_storeu_ps(reinterpret_cast<float*>(out + 16 * sizeof(float)), rest);
