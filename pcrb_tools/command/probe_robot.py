@@ -20,11 +20,11 @@ POSES = {'geometry_msgs/PoseStamped': PoseStamped, INITIAL_POSE: PoseWithCovaria
 SCANS, PERIOD, ANSWER_LIMIT = 10, 0.1, 3.0  # s
 PATIENCE = 10.0  # s, in place of ANSWER_LIMIT for a node that has answered a scan, and may have to wait for a processor
 MASTER_LIMIT = 120.0  # s
-if not hasattr(threading.Thread, 'isAlive'):  # by which Debian 11's rospy ends, and which its Python has no more
-    threading.Thread.isAlive = threading.Thread.is_alive
 CONNECT_LIMIT = 20.0  # s
 SENSOR = 'sensor'
 OWN = '/pcrb_probe'
+if not hasattr(threading.Thread, 'isAlive'):  # by which Debian 11's rospy ends, and which its Python has no more
+    threading.Thread.isAlive = threading.Thread.is_alive
 
 
 @dataclasses.dataclass

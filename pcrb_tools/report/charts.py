@@ -15,6 +15,7 @@ SMALLEST = 1e-4  # errors below it are drawn there on a logarithmic axis
 FEWEST_OF_A_LINE = 5  # problems in each bin that a line joins: between the medians of fewer it would mean nothing
 
 BASELINE = Ink(NEUTRAL, 'bar', '6 4')  # unlike every method's
+UNTOUCHED = 'do nothing'  # the baseline, where it is a line of no problem's own
 
 
 def inks_for(names):
@@ -26,9 +27,6 @@ def inks_of(section):
     """How the methods are drawn, and the baseline, which is none."""
     inks = inks_for([method['method'] for method in section['methods']])
     return {**inks, **({section['baseline']: BASELINE} if section['baseline'] else {})}
-
-
-UNTOUCHED = 'do nothing'  # the baseline, where it is a line of no problem's own
 
 
 def untouched_of(scores, selection='total'):

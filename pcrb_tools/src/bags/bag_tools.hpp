@@ -35,9 +35,8 @@ struct ProblemsBagOptions {
 
 /// Writes what replay shows of a sequence as a bag. A bag that is complete and unchanged is kept.
 ///
-/// @throws pcrb::Error  if the sequence or an output is not as it should be; to keep time, if a
-/// name
-///                      has no timestamp, or one that is not later than the one before.
+/// @throws pcrb::Error  if the sequence or an output is not as it should be; to keep time, if the
+///                      timestamps in the names do not increase, or a name has none.
 void runSequenceBagTool(const SequenceBagOptions& options);
 
 /// Writes what replay shows of a problem file as a bag, or, without truth, what a client of the

@@ -23,8 +23,8 @@ std::vector<SeriesRun> runsOfSeries(const SeriesOptions& options);
 /// What a series becomes when further runs are added to it.
 ///
 /// @param all   the series as it is.
-/// @param runs  those that are there already (same parameter, value and trial) are given their
-/// folder.
+/// @param runs  those to add; one that is there already (same parameter, value and trial) is given
+///              its folder.
 std::vector<SeriesRun> grown(std::vector<SeriesRun> all, std::vector<SeriesRun>& runs);
 
 /// Text of a method's parameter file with one value replaced, whatever the data set.
