@@ -71,22 +71,22 @@ class SmoothingLocalizer(NdtLocalizer):
 
 
 class RunawayLocalizer(NdtLocalizer):
-    """A filter whose velocity takes more than all of a correction for motion: it swings ever wider about a robot that stands still."""
+    """A filter whose velocity takes more than all of a correction for motion: it swings ever wider about a robot that stands still.
+
+    It counts scans, not time, so that it swings alike on a machine that is busy.
+    """
 
     POSITION_GAIN, VELOCITY_GAIN = 0.5, 3.2  # 2 a + b < 4 would be stable
-    PERIOD = 0.1  # s, before the second scan
 
     def initialise(self, pose, covariance=None, stamp=0.0):
         self.pose = self.measured = pose
-        self.velocity, self.stamp = np.zeros(3), None
+        self.velocity = np.zeros(3)  # m per scan
 
     def update(self, scan, stamp):
-        dt = self.PERIOD if self.stamp is None else max(1e-3, stamp - self.stamp)
-        self.stamp = stamp
         self.measured, _ = self.measure(scan, self.measured)
-        predicted = self.pose[:3, 3] + self.velocity * dt
+        predicted = self.pose[:3, 3] + self.velocity
         residual = self.measured[:3, 3] - predicted
-        self.velocity = self.velocity + self.VELOCITY_GAIN * residual / dt
+        self.velocity = self.velocity + self.VELOCITY_GAIN * residual
         self.pose = transform(self.measured[:3, :3], predicted + self.POSITION_GAIN * residual)
         return self.pose
 
