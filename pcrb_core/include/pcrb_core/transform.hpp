@@ -14,6 +14,9 @@ using Transform = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>
 /// Tolerance of requireRigid: the largest ‖RᵀR − I‖ (Frobenius) of a rigid transform.
 constexpr double kRigidTolerance = 1e-6;
 
+constexpr double kRadiansPerDegree = 0.017453292519943295;
+constexpr double kDegreesPerRadian = 57.29577951308232;
+
 /// Transform of the first three rows [R | t] of a 4 × 4 matrix, row-major entries, R kept as it is.
 ///
 /// @throws InvalidProblem  if an entry is not finite, ‖RᵀR − I‖ > kRigidTolerance, or det R < 0.

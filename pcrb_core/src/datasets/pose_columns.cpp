@@ -6,6 +6,7 @@
 #include "datasets/named_columns.hpp"
 #include "datasets/pose_rows.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/transform.hpp"
 
 namespace pcrb {
 namespace {
@@ -112,9 +113,8 @@ class ColumnReader {
     if (!has_pose && !is_matrix_) {
       columns_.reader().fail("the columns " + joined(columns_.names()), kExpectedColumns);
     }
-    constexpr double kDegree = 0.017453292519943295;  // rad
     for (const char* angle : {"roll", "pitch", "yaw"}) {
-      radians_[angle] = has(angle) && unitIn(angle).substr(0, 3) == "deg" ? kDegree : 1.0;
+      radians_[angle] = has(angle) && unitIn(angle).substr(0, 3) == "deg" ? kRadiansPerDegree : 1.0;
     }
     chooseKey();
   }

@@ -48,7 +48,6 @@ namespace {
 constexpr std::size_t kLocalPerturbations = 30;
 /// A pair's share of the ids: those of its local problems and one for a global one.
 constexpr std::size_t kIdsPerPair = kLocalPerturbations + 1;
-constexpr double kDegree = M_PI / 180.0;
 
 std::size_t idIndex(Kind kind, std::size_t pair, std::size_t perturbation) {
   return kIdsPerPair * pair + (kind == Kind::kLocal ? perturbation : kLocalPerturbations);
@@ -72,7 +71,8 @@ Transform samplePerturbation(const Eigen::Vector3d& source_centroid,
   const Eigen::Vector3d direction = random.direction();
   const double distance = random.uniform(bounds.translation.min, bounds.translation.max);
   const Eigen::Vector3d axis = random.direction();
-  const double angle = random.uniform(bounds.rotation_deg.min, bounds.rotation_deg.max) * kDegree;
+  const double angle =
+      random.uniform(bounds.rotation_deg.min, bounds.rotation_deg.max) * kRadiansPerDegree;
   return makePerturbation(source_centroid, distance * direction,
                           Eigen::AngleAxisd(angle, axis).toRotationMatrix());
 }

@@ -8,6 +8,7 @@
 #include "pcrb_core/evaluation/covariance_consistency.hpp"
 #include "pcrb_core/registration/parameters.hpp"
 #include "pcrb_core/registration/registration.hpp"
+#include "pcrb_core/transform.hpp"
 #include "support/scenes.hpp"
 
 namespace pcrb {
@@ -16,8 +17,6 @@ namespace {
 using pcrb_test::hall;
 using pcrb_test::shared;
 using pcrb_test::transformed;
-
-constexpr double kDegree = M_PI / 180.0;
 
 bool isGlobal(const std::string& method) {
   return std::set<std::string>{"fgr", "ransac", "teaser"}.count(method) > 0;
@@ -58,9 +57,9 @@ class Method : public ::testing::TestWithParam<std::string> {
   /// A motion that the method's start allows.
   Transform motion(std::uint64_t seed) const {
     Random random(seed);
-    if (isGlobal(GetParam())) return pcrb_test::randomMotion(random, 120 * kDegree, 6.0);
+    if (isGlobal(GetParam())) return pcrb_test::randomMotion(random, 120 * kRadiansPerDegree, 6.0);
     const bool is_narrow = isNdt();  // its cells' basin of attraction
-    return pcrb_test::randomMotion(random, (is_narrow ? 2.5 : 5.0) * kDegree,
+    return pcrb_test::randomMotion(random, (is_narrow ? 2.5 : 5.0) * kRadiansPerDegree,
                                    is_narrow ? 0.2 : 0.3);
   }
 };
@@ -71,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(All, Method, ::testing::ValuesIn(registrationMethods())
 TEST_P(Method, LeavesACloudOnItself) {
   if (GetParam() == "ndt_pcl") GTEST_SKIP() << "takes one step, wherever that leads";
   const auto result = align(hall(1), hall(1));
-  EXPECT_LT(angleBetween(result.T_target_source, Transform::Identity()), 0.2 * kDegree);
+  EXPECT_LT(angleBetween(result.T_target_source, Transform::Identity()), 0.2 * kRadiansPerDegree);
   EXPECT_LT(result.T_target_source.translation().norm(), 0.03);
   EXPECT_TRUE(result.converged) << result.reason;
 }
@@ -81,7 +80,7 @@ TEST_P(Method, RecoversKnownMotions) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Transform P = motion(seed);
     const auto result = align(hall(1), transformed(hall(2), P));
-    EXPECT_LT(angleBetween(result.T_target_source, P.inverse()), 1.5 * kDegree) << seed;
+    EXPECT_LT(angleBetween(result.T_target_source, P.inverse()), 1.5 * kRadiansPerDegree) << seed;
     EXPECT_LT(distanceAt(P.translation(), result.T_target_source, P.inverse()), 0.1) << seed;
     EXPECT_GT(result.iterations, 0);
     EXPECT_GT(result.solver_time, 0.0);
@@ -93,16 +92,16 @@ TEST_P(Method, StartsFromTheInitialGuess) {
   if (isGlobal(GetParam())) GTEST_SKIP() << "global methods need no guess";
   if (stopsEarly(GetParam())) GTEST_SKIP() << "stops early";
   Random random(4);
-  const Transform far = pcrb_test::randomMotion(random, 100 * kDegree, 20.0);
+  const Transform far = pcrb_test::randomMotion(random, 100 * kRadiansPerDegree, 20.0);
   const Transform guess = motion(5) * far.inverse();
   const auto result = align(hall(1), transformed(hall(2), far), guess);
-  EXPECT_LT(angleBetween(result.T_target_source, far.inverse()), 1.5 * kDegree);
+  EXPECT_LT(angleBetween(result.T_target_source, far.inverse()), 1.5 * kRadiansPerDegree);
   EXPECT_LT(distanceAt(far.translation(), result.T_target_source, far.inverse()), 0.1);
 }
 
 TEST(DoNothing, RepliesTheInitialGuess) {
   Random random(3);
-  const Transform guess = pcrb_test::randomMotion(random, 50 * kDegree, 2.0);
+  const Transform guess = pcrb_test::randomMotion(random, 50 * kRadiansPerDegree, 2.0);
   const auto method = makeRegistration("do_nothing", {});
   method->setTarget(shared(hall(1)));
   const auto result = method->align(hall(2), guess);
@@ -138,7 +137,7 @@ TEST(Registration, GivesTheCovarianceOfThePoseInTheTargetsFrame) {
 
 TEST(Gicp, HasACovarianceThatFollowsTheFrame) {
   Random random(2);
-  const Transform P = pcrb_test::randomMotion(random, 5 * kDegree, 0.3);
+  const Transform P = pcrb_test::randomMotion(random, 5 * kRadiansPerDegree, 0.3);
   const Eigen::Vector3d shift(50.0, -30.0, 10.0);
   const auto covarianceAt = [&](const Eigen::Vector3d& place) -> Eigen::Matrix<double, 6, 6> {
     const Transform moved(Eigen::Translation3d{place});
@@ -167,7 +166,7 @@ TEST(Gicp, HasACovarianceThatFollowsTheFrame) {
 TEST(Ndt, DoesNotTakeAStepThatItsLineSearchCutShortForTheEnd) {
   // From this start the first step turns much and hardly moves the centroid.
   Random random(26);
-  const Transform P = pcrb_test::randomMotion(random, 2.5 * kDegree, 0.2);
+  const Transform P = pcrb_test::randomMotion(random, 2.5 * kRadiansPerDegree, 0.2);
   const auto method = makeRegistration("ndt", {{"voxel_leaf", "1"}, {"filter_source", "false"}});
   method->setTarget(shared(hall(1)));
   const auto result = method->align(transformed(hall(2), P), Transform::Identity());
@@ -185,7 +184,7 @@ TEST_P(Method, IsAsAccurateFarFromTheOrigin) {
   target.local_origin = source.local_origin = {702000.0, 8045000.0, 100.0};
   const Transform expected = shift * P.inverse() * shift.inverse();
   const auto result = align(target, source);
-  EXPECT_LT(angleBetween(result.T_target_source, expected), 1.5 * kDegree);
+  EXPECT_LT(angleBetween(result.T_target_source, expected), 1.5 * kRadiansPerDegree);
   EXPECT_LT(distanceAt(shift * P.translation(), result.T_target_source, expected), 0.1);
 }
 
@@ -267,7 +266,7 @@ TEST_P(Method, GivesARigidPoseOrAnErrorWithoutOverlap) {
 TEST_P(Method, PutsAPlaneOnAPlaneOrSaysThatItCannot) {
   if (stopsEarly(GetParam())) GTEST_SKIP() << "stops early";
   Random random(6);
-  const Transform P = pcrb_test::randomMotion(random, 2 * kDegree, 0.1);
+  const Transform P = pcrb_test::randomMotion(random, 2 * kRadiansPerDegree, 0.1);
   try {
     const auto result = align(pcrb_test::plane(1), transformed(pcrb_test::plane(2), P));
     const Transform left = result.T_target_source * P;

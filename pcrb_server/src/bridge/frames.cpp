@@ -36,8 +36,8 @@ Transform uprightFromOptical(const std::optional<Transform>& T_map_optical) {
 
 std::string warningOfTilt(const Transform& T_map_base) {
   constexpr double kMostOfProblems = 30.0;  // deg, by which local problems turn a sensor
-  constexpr double kDegree = 0.017453292519943295;
-  const double tilt = std::acos(std::clamp(T_map_base.linear()(2, 2), -1.0, 1.0)) / kDegree;
+  const double tilt =
+      std::acos(std::clamp(T_map_base.linear()(2, 2), -1.0, 1.0)) / kRadiansPerDegree;
   if (tilt <= kMostOfProblems + 1.0) return "";
   return "warning: the IMU (imu_topic) says that the robot is level, which it is not: an initial "
          "pose tilts it by more than the 30 degrees of local problems; leave imu_topic out if the "

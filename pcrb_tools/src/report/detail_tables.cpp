@@ -5,12 +5,11 @@
 #include "pcrb_core/evaluation/distributions.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/transform.hpp"
 #include "report/section_tables.hpp"
 
 namespace pcrb_tools {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 Json optionalNumber(const std::optional<double>& value) {
   return value ? number(*value) : Json(nullptr);
@@ -49,7 +48,7 @@ std::vector<double> sortedComponent(const Problems& problems, std::size_t axis) 
   std::vector<double> values;
   for (const ScoredProblem* problem : problems) {
     if (!problem->components || !problem->isAnswered()) continue;
-    values.push_back(problem->components->at(axis) / (axis < 3 ? 1.0 : kDegree));
+    values.push_back(problem->components->at(axis) / (axis < 3 ? 1.0 : pcrb::kRadiansPerDegree));
   }
   std::sort(values.begin(), values.end());
   return values;
@@ -77,7 +76,8 @@ Table recallTable(const Section& section, const ReportOptions& options) {
       if (outcomes.empty()) continue;
       std::vector<Json> row{entry->method, selection.name, outcomes.size()};
       for (const auto& [translation, degrees] : options.recall_limits) {
-        row.push_back(number(pcrb::registrationRecall(outcomes, translation, degrees * kDegree)));
+        row.push_back(number(
+            pcrb::registrationRecall(outcomes, translation, degrees * pcrb::kRadiansPerDegree)));
       }
       if (!row.back().is_null()) table.rows.push_back(std::move(row));
     }
@@ -160,7 +160,7 @@ Table problemTable(const Section& section) {
                    [](const auto& a, const auto& b) { return a.second->error > b.second->error; });
   for (const auto& [entry, problem] : order) {
     std::optional<double> degrees = problem->rotation_error;
-    if (degrees) *degrees /= kDegree;
+    if (degrees) *degrees /= pcrb::kRadiansPerDegree;
     table.rows.push_back(
         {entry->method, sequenceName(section, problem->key), problem->error,
          pcrb::toString(problem->outcome), optionalNumber(problem->initial_misalignment),

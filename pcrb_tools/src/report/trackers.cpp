@@ -11,13 +11,13 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
+#include "pcrb_core/transform.hpp"
 #include "report/entries.hpp"
 
 namespace pcrb_tools {
 namespace {
 
-constexpr double kTrackerDegree = 57.29577951308232;  // per rad
-constexpr std::size_t kMapSquares = 4000;             // drawn at most
+constexpr std::size_t kMapSquares = 4000;  // drawn at most
 
 double finiteField(const pcrb::LineReader& lines, const std::string& field) {
   const auto value = pcrb::parseDouble(field);
@@ -102,11 +102,11 @@ std::vector<Json> trackerRow(const Tracker& tracker) {
           number(pcrb::describe(errors).median),
           number(pcrb::describe(held).median),
           number(rmse(absolute.translation)),
-          number(rmse(absolute.rotation) * kTrackerDegree),
+          number(rmse(absolute.rotation) * pcrb::kDegreesPerRadian),
           number(rmse(steps.translation)),
-          number(rmse(steps.rotation) * kTrackerDegree),
+          number(rmse(steps.rotation) * pcrb::kDegreesPerRadian),
           number(rmse(metres.translation)),
-          number(rmse(metres.rotation) * kTrackerDegree),
+          number(rmse(metres.rotation) * pcrb::kDegreesPerRadian),
           number(drift.translation_percent),
           number(drift.rotation_degrees_per_metre),
           tracker.truth.size() == tracker.scans.size() ? "complete" : "incomplete"};

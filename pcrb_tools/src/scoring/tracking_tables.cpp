@@ -13,10 +13,8 @@
 namespace pcrb_tools {
 namespace {
 
-constexpr double kDegree = 57.29577951308232;  // per rad
-
 std::vector<double> inDegrees(std::vector<double> angles) {
-  for (double& angle : angles) angle *= kDegree;
+  for (double& angle : angles) angle *= pcrb::kDegreesPerRadian;
   return angles;
 }
 

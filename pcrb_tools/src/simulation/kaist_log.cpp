@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/transform.hpp"
 #include "simulation/noise.hpp"
 #include "simulation/props.hpp"
 #include "simulation/sample_logs.hpp"
@@ -26,7 +27,6 @@ constexpr double kRevolution = 0.1;                     // s
 constexpr double kPoseInterval = 0.01;                  // s
 constexpr std::int64_t kFirstPose = 15;                 // number; the first scan is taken before it
 constexpr double kSpeed = 4.0;                          // m/s
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kNoReturnShare = 0.02;  // of lost beams that come as records of zeros
 
 /// One of the two lidars on the roof.
@@ -50,9 +50,9 @@ std::vector<Velodyne> velodynes() {
 }
 
 Eigen::Matrix3d rotationOf(const Vector3d& rpy_deg) {
-  return (AngleAxisd(rpy_deg.z() * kDegree, Vector3d::UnitZ()) *
-          AngleAxisd(rpy_deg.y() * kDegree, Vector3d::UnitY()) *
-          AngleAxisd(rpy_deg.x() * kDegree, Vector3d::UnitX()))
+  return (AngleAxisd(rpy_deg.z() * pcrb::kRadiansPerDegree, Vector3d::UnitZ()) *
+          AngleAxisd(rpy_deg.y() * pcrb::kRadiansPerDegree, Vector3d::UnitY()) *
+          AngleAxisd(rpy_deg.x() * pcrb::kRadiansPerDegree, Vector3d::UnitX()))
       .toRotationMatrix();
 }
 
