@@ -13,10 +13,9 @@
 
 #include "pcd_header.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/pcd_memory.hpp"
-#include "pcrb_core/io/pcd_output.hpp"
 #include "pcrb_core/io/text.hpp"
 
 namespace pcrb {

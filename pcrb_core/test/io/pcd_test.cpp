@@ -13,7 +13,6 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_core/io/pcd_memory.hpp"
 #include "support/pcd_text.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -6,9 +6,9 @@
 #include <system_error>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/atomic_file.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_core/io/pcd_output.hpp"
 #include "pcrb_core/io/text.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
 

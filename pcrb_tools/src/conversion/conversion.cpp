@@ -11,7 +11,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
-#include "pcrb_core/io/pcd_memory.hpp"
+#include "pcrb_core/io/pcd.hpp"
 #include "pcrb_core/problem/problem.hpp"
 
 namespace pcrb_tools {

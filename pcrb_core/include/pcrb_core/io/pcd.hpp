@@ -11,6 +11,8 @@
 
 namespace pcrb {
 
+class AtomicFile;
+
 struct PcdReadOptions {
   int threads = 1;  ///< >= 1, for ascii; the result does not depend on it
   /// Of which file and cloud take their share while they are read; what needs more than all of it
@@ -37,6 +39,16 @@ DatasetCloud readPcd(const std::string& path, const PcdReadOptions& options = {}
 /// The same from memory; `name` stands for the path in messages.
 DatasetCloud parsePcd(const char* begin, const char* end, const std::string& name,
                       const PcdReadOptions& options = {});
+
+/// Memory that a compressed PCD takes unpacked, with its points twice, as its first 64 KiB say: for
+/// who takes a share of a budget before he reads it.
+///
+/// @return  bytes; 0 for all else, which takes no more than some times its size, and for what is no
+///          PCD: who reads it says so
+std::size_t memoryOfPackedPcd(std::string_view start);
+
+/// The same of a file; 0 if it cannot be read.
+std::size_t memoryOfPackedPcdFile(const std::string& path);
 
 /// Seconds of a unit of a field that holds the time of each point, as drivers call it: `time`, `t`,
 /// `timestamp`, `time_stamp`, `offset_time`, `time_offset`, `point_time`: floats are seconds,
@@ -66,6 +78,12 @@ std::optional<Transform> readViewpoint(const std::string& path);
 /// Writes to a temporary name in the same folder, then renames. Intensity is not written.
 /// @throws InvalidFile  if the file cannot be written completely, or a point is not finite.
 void writePcd(const std::string& path, const DatasetCloud& cloud);
+
+/// The same into a file whose commit is left to the caller, who may have other things to do while
+/// the disk takes it.
+///
+/// @param path  for messages
+void writePcd(AtomicFile& file, const std::string& path, const DatasetCloud& cloud);
 
 /// Order of file names as a person counts: runs of digits compare as numbers, so `PointCloud2.pcd`
 /// comes before `PointCloud10.pcd`. Names that differ in leading zeros only compare as text.
