@@ -35,9 +35,9 @@ class Transfer {
 
   /// Appends to the part file what it lacks.
   ///
-  /// @param source  what the file is known by, recorded in `<part>.from`: a part of another source
-  /// is
-  ///                begun anew. The URL of a confirmed download changes every time, this does not.
+  /// @param source  what the file is known by, recorded in `<part>.from`: a part of another
+  ///                source is begun anew. The URL of a confirmed download changes every time, this
+  ///                does not.
   /// @param most    bytes that the part file may have; a response that goes on is given up.
   TransferResult fetch(const std::string& url, const std::string& source, const std::string& part,
                        bool keep_html, std::uint64_t most);

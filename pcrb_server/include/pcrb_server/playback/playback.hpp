@@ -55,9 +55,8 @@ struct SequenceOptions {
 /// @throws Error  if the folder or a name is wrong, or there is no scan.
 std::vector<std::string> scansOf(const SequenceOptions& options);
 
-/// @throws Error  if the folder, a name or the map is wrong, or, without ground truth, if the first
-/// cloud
-///                has no viewpoint.
+/// @throws Error  if the folder, a name or the map is wrong, or, without ground truth, if the
+///                first cloud has no viewpoint.
 std::unique_ptr<Playback> playSequence(const SequenceOptions& options);
 
 /// Registration problems.
