@@ -3,7 +3,9 @@
 #include "common/tool_main.hpp"
 #include "preparation/preparation_tools.hpp"
 
-int main(int argc, char** argv) {
+namespace pcrb_tools::check_dataset {
+
+int run(int argc, char** argv) {
   CLI::App app(
       "Checks data sets in the common layout: every cloud readable, the clouds of every problem "
       "present and in its frame, no duplicates, overlaps recomputed on a sample.");
@@ -12,7 +14,7 @@ int main(int argc, char** argv) {
       "file "
       "was made with clouds in another frame, the offset that would explain it is estimated.\n"
       "Example: check_dataset ~/pcrb eth/apartment kaist");
-  pcrb_tools::CheckOptions options;
+  CheckOptions options;
   app.add_option("root", options.root, "folder of the data sets")->required();
   app.add_option(
       "sequences", options.sequences,
@@ -21,8 +23,9 @@ int main(int argc, char** argv) {
                  "number of pairs of each problem file whose overlap is recomputed")
       ->capture_default_str();
   app.add_flag("--strict", options.strict, "exit with 1 for warnings too");
-  pcrb_tools::addThreadsOption(app, options.threads);
-  return pcrb_tools::runTool(app, argc, argv, [&] {
-    return runCheckTool(options, std::cout) ? pcrb_tools::kSuccess : pcrb_tools::kFailure;
-  });
+  addThreadsOption(app, options.threads);
+  return runTool(app, argc, argv,
+                 [&] { return runCheckTool(options, std::cout) ? kSuccess : kFailure; });
 }
+
+}  // namespace pcrb_tools::check_dataset

@@ -1,7 +1,9 @@
 #include "common/tool_main.hpp"
 #include "preparation/preparation_tools.hpp"
 
-int main(int argc, char** argv) {
+namespace pcrb_tools::compute_overlap {
+
+int run(int argc, char** argv) {
   CLI::App app(
       "Computes the overlap matrix of a sequence: for every ordered pair the fraction of the "
       "source's points with a target point strictly closer than a distance, in ground-truth pose.");
@@ -9,7 +11,7 @@ int main(int argc, char** argv) {
       "The matrix has the published text format: `overlap name name ...`, a row per source; pairs "
       "that were not asked for are nan. Targets that are done are kept in <output>.partial.\n"
       "Example: compute_overlap ~/pcrb/eth/apartment");
-  pcrb_tools::OverlapOptions options;
+  OverlapOptions options;
   app.add_option("folder", options.folder, "<root>/<data set>/<sequence>, a folder of .pcd files")
       ->required();
   app.add_option("-o,--output", options.output, "file of the matrix [<folder>_overlap.txt]");
@@ -23,10 +25,12 @@ int main(int argc, char** argv) {
   app.add_option("--target", options.targets,
                  "names of the targets to compute, e.g. box_map.pcd [all]");
   app.add_option("--exclude", options.excluded, "names of clouds to leave out of the matrix");
-  pcrb_tools::addThreadsOption(app, options.threads);
+  addThreadsOption(app, options.threads);
   app.add_flag("--force", options.force, "replace an output that this tool did not make");
-  return pcrb_tools::runTool(app, argc, argv, [&] {
+  return runTool(app, argc, argv, [&] {
     runOverlapTool(options);
-    return pcrb_tools::kSuccess;
+    return kSuccess;
   });
 }
+
+}  // namespace pcrb_tools::compute_overlap

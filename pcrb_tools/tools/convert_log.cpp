@@ -3,18 +3,19 @@
 #include "common/tool_main.hpp"
 #include "preparation/preparation.hpp"
 
+namespace pcrb_tools::convert_log {
 namespace {
 
 /// What the command line sets.
 struct Options {
-  pcrb_tools::OwnRequest request;
-  pcrb_tools::PrepareOptions prepare;
-  pcrb_tools::DatasetParameters parameters;
+  OwnRequest request;
+  PrepareOptions prepare;
+  DatasetParameters parameters;
   double max_gap = 0.25;
 };
 
 void addPlaces(CLI::App& app, Options& options) {
-  pcrb_tools::OwnRequest& request = options.request;
+  OwnRequest& request = options.request;
   app.add_option("INPUT", request.inputs,
                  "bags of ROS 1, or folders and archives of clouds (pcd, ply, bin, npy)")
       ->required();
@@ -24,12 +25,11 @@ void addPlaces(CLI::App& app, Options& options) {
   app.add_option("--data-set", request.data_set, "folder of the data set")->capture_default_str();
   app.add_option("--sequence", request.sequence,
                  "folder of the sequence [from the names of the inputs]");
-  pcrb_tools::addChoice(app, "--until", options.prepare.last, pcrb_tools::prepareStages(),
-                        "last stage to run [check]");
+  addChoice(app, "--until", options.prepare.last, prepareStages(), "last stage to run [check]");
 }
 
 void addSources(CLI::App& app, Options& options) {
-  pcrb_tools::OwnRequest& request = options.request;
+  OwnRequest& request = options.request;
   app.add_option("--cloud-topic", request.cloud_topic,
                  "topic of the clouds [the only one of the bags]");
   app.add_option("--topic", request.pose_topic,
@@ -40,7 +40,7 @@ void addSources(CLI::App& app, Options& options) {
   app.add_option("--poses", request.poses,
                  "text of poses: tum, kitti, euroc, kaist, log (3DMatch), or csv with names of "
                  "columns [the only one beside the clouds]");
-  pcrb_tools::addPoseFormatOption(app, request.pose_format);
+  addPoseFormatOption(app, request.pose_format);
   app.add_option(
       "--times", request.times,
       "text of a timestamp in seconds for each cloud of a folder [times.txt beside them, "
@@ -48,14 +48,14 @@ void addSources(CLI::App& app, Options& options) {
 }
 
 void addMeaning(CLI::App& app, Options& options) {
-  pcrb_tools::OwnRequest& request = options.request;
+  OwnRequest& request = options.request;
   app.add_flag("--in-world", request.in_world,
                "the clouds are in the world's frame already; poses say where the sensor was");
   app.add_option("--world-frame", request.world_frame,
                  "tf frame that the clouds are wanted in [that of the poses]");
   app.add_option("--body-frame", request.body_frame,
                  "tf frame that the poses are of [that of the messages, else the clouds']");
-  pcrb_tools::addSensorInBodyOption(app, request.T_body_sensor, "from tf");
+  addSensorInBodyOption(app, request.T_body_sensor, "from tf");
   app.add_option("--time-offset", request.time_offset,
                  "seconds that are added to the timestamps of the poses")
       ->capture_default_str();
@@ -68,7 +68,7 @@ void addMeaning(CLI::App& app, Options& options) {
 }
 
 void addSelection(CLI::App& app, Options& options) {
-  pcrb_tools::OwnRequest& request = options.request;
+  OwnRequest& request = options.request;
   app.add_option("--min-distance", request.min_distance,
                  "thin to clouds this far from each other, m; 0 = all")
       ->check(CLI::NonNegativeNumber)
@@ -101,7 +101,7 @@ void addPreparation(CLI::App& app, Options& options) {
                  "places that a pair may be apart in sequences of more than twice as many clouds")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  pcrb_tools::addThreadsOption(app, options.prepare.threads);
+  addThreadsOption(app, options.prepare.threads);
 }
 
 /// Puts together what the options say.
@@ -113,7 +113,7 @@ void settle(Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Makes a data set of a log of your own: clouds in one frame, a map, overlaps, problems, and "
       "a check. Run again after a stop, it goes on where it was.");
@@ -128,10 +128,11 @@ int main(int argc, char** argv) {
   addMeaning(app, options);
   addSelection(app, options);
   addPreparation(app, options);
-  return pcrb_tools::runTool(app, argc, argv, [&options] {
+  return runTool(app, argc, argv, [&options] {
     settle(options);
-    return pcrb_tools::prepareOwn(options.request, options.parameters, options.prepare, std::cout)
-               ? pcrb_tools::kSuccess
-               : pcrb_tools::kFailure;
+    return prepareOwn(options.request, options.parameters, options.prepare, std::cout) ? kSuccess
+                                                                                       : kFailure;
   });
 }
+
+}  // namespace pcrb_tools::convert_log

@@ -3,7 +3,9 @@
 #include "common/tool_main.hpp"
 #include "pcrb_core/parallel.hpp"
 
-int main(int argc, char** argv) {
+namespace pcrb_tools::evaluate_batch {
+
+int run(int argc, char** argv) {
   CLI::App app(
       "Runs a benchmark in parallel on this machine: its shards, each with a ROS master of its "
       "own, "
@@ -16,9 +18,9 @@ int main(int argc, char** argv) {
       "it goes on. Exit status: 0 only if every problem has its result and every shard's node has\n"
       "answered; else it says which shard and where its log is.\n"
       "Example: evaluate_batch --run ~/pcrb/run --jobs 8 root:=$HOME/pcrb/data method:=gicp");
-  pcrb_tools::BatchOptions options;
+  BatchOptions options;
   options.jobs = pcrb::processorCount();
-  options.arguments = pcrb_tools::launchArguments(argc, argv);
+  options.arguments = launchArguments(argc, argv);
   app.add_option("--run", options.run, "folder of the results; shards are in its shards/")
       ->required();
   app.add_option("--jobs", options.jobs, "shards at work at the same time")
@@ -38,12 +40,14 @@ int main(int argc, char** argv) {
       ->default_str("own");
   app.add_option("--scratch", options.scratch,
                  "folder for logs and temporary files [logs: with the results]");
-  pcrb_tools::SeriesOptions series;
+  SeriesOptions series;
   app.add_option("--repeat", series.repeat,
                  "number of trials, for what is not deterministic, each a run in trial_<i>")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   app.add_option("--sweep", series.sweep,
                  "NAME=V1,V2,…: a run for each value of a parameter of the method");
-  return pcrb_tools::runTool(app, argc, argv, [&] { return runSeriesTool(options, series); });
+  return runTool(app, argc, argv, [&] { return runSeriesTool(options, series); });
 }
+
+}  // namespace pcrb_tools::evaluate_batch

@@ -4,7 +4,9 @@
 #include "ground_truth/ground_truth_tool.hpp"
 #include "pcrb_core/parallel.hpp"
 
-int main(int argc, char** argv) {
+namespace pcrb_tools::evaluate_ground_truth {
+
+int run(int argc, char** argv) {
   CLI::App app(
       "Evaluates the ground truth of data sets: registers each pair of a problem file from its "
       "ground-truth pose and measures how far that moves the source.");
@@ -14,7 +16,7 @@ int main(int argc, char** argv) {
       "floor below which methods cannot be told apart on it: give the CSV to report "
       "--ground-truth.\n"
       "Example: evaluate_ground_truth ~/pcrb --output ground_truth --sequences eth/apartment");
-  pcrb_tools::GroundTruthOptions options;
+  GroundTruthOptions options;
   options.threads = pcrb::processorCount();
   std::string kind = "local";
   app.add_option("root", options.root, "folder of data sets in the common layout");
@@ -36,9 +38,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_flag("--force", options.force, "replace files that this tool did not make");
-  return pcrb_tools::runTool(app, argc, argv, [&] {
+  return runTool(app, argc, argv, [&] {
     options.kind = pcrb::kindFromString(kind);
     runGroundTruthTool(options, std::cout);
-    return pcrb_tools::kSuccess;
+    return kSuccess;
   });
 }
+
+}  // namespace pcrb_tools::evaluate_ground_truth

@@ -3,8 +3,10 @@
 #include "common/tool_main.hpp"
 #include "simulation/sample_logs.hpp"
 
-int main(int argc, char** argv) {
-  pcrb_tools::simulation::SampleLogsRequest request;
+namespace pcrb_tools::make_sample_logs {
+
+int run(int argc, char** argv) {
+  simulation::SampleLogsRequest request;
   CLI::App app{
       "Simulates short logs in the original formats of the four data sets, by ray casting: "
       "something to try everything on before the real logs are there."};
@@ -25,10 +27,12 @@ int main(int argc, char** argv) {
          "length that every ground-truth pose is moved by, m; ground_truth_error.csv says how")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  pcrb_tools::addThreadsOption(app, request.threads);
+  addThreadsOption(app, request.threads);
   app.footer("Example: make_sample_logs --output ~/sample_logs --seed 1");
-  return pcrb_tools::runTool(app, argc, argv, [&request] {
-    pcrb_tools::simulation::makeSampleLogs(request);
-    return pcrb_tools::kSuccess;
+  return runTool(app, argc, argv, [&request] {
+    simulation::makeSampleLogs(request);
+    return kSuccess;
   });
 }
+
+}  // namespace pcrb_tools::make_sample_logs

@@ -4,7 +4,9 @@
 
 #include "common/tool_main.hpp"
 
-int main(int argc, char** argv) {
+namespace pcrb_tools::merge_runs {
+
+int run(int argc, char** argv) {
   CLI::App app("Merges the shards of a run into one run, and prints its summary.");
   app.footer(
       "The shards must be parts 0/N ... (N-1)/N of one run, each once, all of one configuration,\n"
@@ -15,10 +17,12 @@ int main(int argc, char** argv) {
   pcrb::MergeOptions options;
   app.add_option("shards", options.runs, "folders of the shards' results")->required();
   app.add_option("-o,--output", options.output, "folder of the merged run")->required();
-  return pcrb_tools::runTool(app, argc, argv, [&] {
+  return runTool(app, argc, argv, [&] {
     const pcrb::MergeReport report = mergeRuns(options);
     std::cout << report.summary << std::flush;
     std::cerr << report.defects << std::flush;
-    return report.defects.empty() ? pcrb_tools::kSuccess : pcrb_tools::kFailure;
+    return report.defects.empty() ? kSuccess : kFailure;
   });
 }
+
+}  // namespace pcrb_tools::merge_runs

@@ -4,23 +4,23 @@
 #include "pcrb_core/parallel.hpp"
 #include "preparation/preparation.hpp"
 
+namespace pcrb_tools::prepare_dataset {
 namespace {
 
-void addSelection(CLI::App& app, pcrb_tools::PrepareOptions& options) {
+void addSelection(CLI::App& app, PrepareOptions& options) {
   app.add_option(
       "sequences", options.sequences,
       "sequences to prepare: names of sequences, data sets, or <data set>/<sequence> [all]");
   app.add_option("--logs", options.logs, "folder of the original logs")->required();
   app.add_option("--root", options.root, "root of the common layout")->required();
-  pcrb_tools::addChoice(app, "--until", options.last, pcrb_tools::prepareStages(),
-                        "last stage to run [check]");
+  addChoice(app, "--until", options.last, prepareStages(), "last stage to run [check]");
 }
 
-void addParameters(CLI::App& app, pcrb_tools::PrepareOptions& options) {
+void addParameters(CLI::App& app, PrepareOptions& options) {
   app.add_option("--seed", options.seed, "seed that the problems are drawn with")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  pcrb_tools::addChoice<pcrb::BoundsSource>(
+  addChoice<pcrb::BoundsSource>(
       app, "--bounds", options.bounds,
       {{"measured", pcrb::BoundsSource::kMeasured}, {"note", pcrb::BoundsSource::kNote}},
       "bounds of the perturbations: measured in the published problem files, or of upstream's note "
@@ -45,7 +45,7 @@ void addParameters(CLI::App& app, pcrb_tools::PrepareOptions& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Prepares data sets from their original logs, in stages: convert, map, overlap, problems, "
       "check. Run again after a stop, it goes on where it was.");
@@ -54,11 +54,11 @@ int main(int argc, char** argv) {
       "fetch_datasets and make_sample_logs put them. Exit status 0 only if the check found no "
       "error.\n"
       "Example: prepare_dataset --logs ~/logs --root ~/benchmark eth/apartment kaist");
-  pcrb_tools::PrepareOptions options;
+  PrepareOptions options;
   addSelection(app, options);
   addParameters(app, options);
-  return pcrb_tools::runTool(app, argc, argv, [&options] {
-    return pcrb_tools::prepareDataset(options, std::cout) ? pcrb_tools::kSuccess
-                                                          : pcrb_tools::kFailure;
-  });
+  return runTool(app, argc, argv,
+                 [&options] { return prepareDataset(options, std::cout) ? kSuccess : kFailure; });
 }
+
+}  // namespace pcrb_tools::prepare_dataset

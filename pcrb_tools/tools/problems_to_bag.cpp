@@ -1,10 +1,10 @@
 #include "bags/bag_tools.hpp"
 #include "common/tool_main.hpp"
 
+namespace pcrb_tools::problems_to_bag {
 namespace {
 
-void addProblemOptions(CLI::App& app, pcrb_tools::ProblemsBagOptions& options,
-                       std::string& presentation) {
+void addProblemOptions(CLI::App& app, ProblemsBagOptions& options, std::string& presentation) {
   app.add_option("problem_file", options.problem_file,
                  "<root>/<data set>/<sequence>_local.txt or _global.txt")
       ->required();
@@ -29,7 +29,7 @@ void addProblemOptions(CLI::App& app, pcrb_tools::ProblemsBagOptions& options,
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Writes registration problems as a bag that `rosbag play --clock` replays: for rviz, or "
       "without truth for whoever is to solve them.");
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
       "Example: problems_to_bag ~/pcrb/eth/apartment_local.txt -o apartment.bag --subset 50\n"
       "Given away: problems_to_bag ~/pcrb/eth/apartment_local.txt -o problems.bag --no-truth \\\n"
       "  --key problems.key, and later score_poses … --key problems.key");
-  pcrb_tools::ProblemsBagOptions options;
+  ProblemsBagOptions options;
   options.bag.period = 2.0;
   bool no_truth = false;
   std::string presentation = "registration";
@@ -52,10 +52,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--compress", options.bag.compress, "compress the bag by LZ4");
   app.add_flag("--force", options.bag.force, "replace a bag that this tool did not make");
-  return pcrb_tools::runTool(app, argc, argv, [&] {
+  return runTool(app, argc, argv, [&] {
     options.problems.publish_ground_truth = !no_truth;
     options.problems.configuration.presentation.kind = pcrb::presentationFromString(presentation);
     runProblemsBagTool(options);
-    return pcrb_tools::kSuccess;
+    return kSuccess;
   });
 }
+
+}  // namespace pcrb_tools::problems_to_bag

@@ -5,6 +5,7 @@
 #include "pcrb_server/node_main.hpp"
 #include "pcrb_server/node_parameters.hpp"
 
+namespace pcrb_tools::registration_node {
 namespace {
 
 const pcrb::NodeHelp kHelp{
@@ -23,12 +24,12 @@ Sets itself:
 Topics and services: problem, target, source, summary; ready, submit_pose; in the namespace /pcrb
 unless another is given. Ends when the server says that the run is over.)"};
 
-int run(pcrb::ShutdownRequest& shutdown) {
+int solve(pcrb::ShutdownRequest& shutdown) {
   pcrb::NodeParameters reader;
-  const pcrb_tools::MethodChoice method(reader);
+  const MethodChoice method(reader);
   reader.finish();
   method.announce();  // before the first `ready`, when the server reads it
-  pcrb_tools::RegistrationClient client([&](const pcrb_msgs::Problem& problem) {
+  RegistrationClient client([&](const pcrb_msgs::Problem& problem) {
     return method.make(problem.data_set, problem.voxel_leaf);
   });
   const ros::WallDuration period(0.1);
@@ -40,4 +41,6 @@ int run(pcrb::ShutdownRequest& shutdown) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return pcrb::runNode(argc, argv, kHelp, run); }
+int run(int argc, char** argv) { return pcrb::runNode(argc, argv, kHelp, solve); }
+
+}  // namespace pcrb_tools::registration_node

@@ -4,9 +4,10 @@
 #include "common/tool_main.hpp"
 #include "report/report_tool.hpp"
 
+namespace pcrb_tools::report {
 namespace {
 
-void addOptions(CLI::App& app, pcrb_tools::ReportOptions& options,
+void addOptions(CLI::App& app, ReportOptions& options,
                 std::vector<std::tuple<double, double>>& recall) {
   app.add_option("runs", options.runs, "run folders: FOLDER, or NAME=FOLDER to name a method");
   app.add_option(
@@ -45,7 +46,7 @@ void addOptions(CLI::App& app, pcrb_tools::ReportOptions& options,
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Compares runs: statistics, tests of differences, charts.");
   app.footer(
       "Writes to the output folder: index.html (one file, needs nothing else), summary.csv, "
@@ -53,15 +54,17 @@ int main(int argc, char** argv) {
       "Examples: report runs/icp runs/gicp --output report\n"
       "          report mine=runs/2024-05-01 --output report\n"
       "          report --import mine_plain_local.csv --format csv --output report");
-  pcrb_tools::ReportOptions options;
+  ReportOptions options;
   std::vector<std::tuple<double, double>> recall;
   addOptions(app, options, recall);
-  return pcrb_tools::runTool(app, argc, argv, [&] {
+  return runTool(app, argc, argv, [&] {
     if (!recall.empty()) options.recall_limits.clear();
     for (const auto& [metres, degrees] : recall)
       options.recall_limits.emplace_back(metres, degrees);
     runReportTool(options);
     std::cout << options.output << "/index.html" << std::endl;
-    return pcrb_tools::kSuccess;
+    return kSuccess;
   });
 }
+
+}  // namespace pcrb_tools::report

@@ -1,28 +1,29 @@
 #include "common/tool_main.hpp"
 #include "preparation/preparation_tools.hpp"
 
+namespace pcrb_tools::sample_problems {
 namespace {
 
-void addChoices(CLI::App& app, pcrb_tools::SamplingOptions& options) {
+void addChoices(CLI::App& app, SamplingOptions& options) {
   using Kinds = std::vector<pcrb::Kind>;
-  pcrb_tools::addChoice<Kinds>(app, "--kind", options.kinds,
-                               {{"local", {pcrb::Kind::kLocal}},
-                                {"global", {pcrb::Kind::kGlobal}},
-                                {"both", {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}}},
-                               "kind of the problems: local, global or both [both]");
-  pcrb_tools::addChoice<pcrb::BoundsSource>(
+  addChoice<Kinds>(app, "--kind", options.kinds,
+                   {{"local", {pcrb::Kind::kLocal}},
+                    {"global", {pcrb::Kind::kGlobal}},
+                    {"both", {pcrb::Kind::kLocal, pcrb::Kind::kGlobal}}},
+                   "kind of the problems: local, global or both [both]");
+  addChoice<pcrb::BoundsSource>(
       app, "--bounds", options.bounds,
       {{"measured", pcrb::BoundsSource::kMeasured}, {"note", pcrb::BoundsSource::kNote}},
       "bounds of the perturbations of the four published data sets: measured in the "
       "published problem files, or of upstream's note [measured]");
-  pcrb_tools::addChoice<pcrb::TopUp>(
+  addChoice<pcrb::TopUp>(
       app, "--top-up", options.top_up,
       {{"even", pcrb::TopUp::kEven}, {"paper", pcrb::TopUp::kPaper}},
       "pairs that an interval of overlaps lacks: even, from the intervals with the "
       "fewest; paper, from all that are left [even]");
 }
 
-void addOptions(CLI::App& app, pcrb_tools::SamplingOptions& options) {
+void addOptions(CLI::App& app, SamplingOptions& options) {
   app.add_option("folder", options.folder, "<root>/<data set>/<sequence>, a folder of .pcd files")
       ->required();
   app.add_option("--overlap", options.overlap, "file of the overlap matrix [<folder>_overlap.txt]");
@@ -35,13 +36,13 @@ void addOptions(CLI::App& app, pcrb_tools::SamplingOptions& options) {
   app.add_option("--sequence", options.sequence,
                  "name of the problems' sequence [the folder's; planetary_map with --map]");
   app.add_option("--exclude", options.excluded, "names of clouds to draw no pairs from");
-  pcrb_tools::addThreadsOption(app, options.threads);
+  addThreadsOption(app, options.threads);
   app.add_flag("--force", options.force, "replace problem files that this tool did not make");
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Draws registration problems from a sequence: pairs evenly over overlap, perturbations about "
       "the source's centroid, uniform in direction and magnitude.");
@@ -50,11 +51,13 @@ int main(int argc, char** argv) {
       "that "
       "record the seed. Needs the matrix of compute_overlap.\n"
       "Example: sample_problems ~/pcrb/planetary/p2at_met --map box_map.pcd");
-  pcrb_tools::SamplingOptions options;
+  SamplingOptions options;
   addOptions(app, options);
   addChoices(app, options);
-  return pcrb_tools::runTool(app, argc, argv, [&] {
+  return runTool(app, argc, argv, [&] {
     runSamplingTool(options);
-    return pcrb_tools::kSuccess;
+    return kSuccess;
   });
 }
+
+}  // namespace pcrb_tools::sample_problems

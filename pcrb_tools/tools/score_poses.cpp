@@ -6,17 +6,18 @@
 #include "pcrb_core/io/number.hpp"
 #include "scoring/scoring_tool.hpp"
 
+namespace pcrb_tools::score_poses {
 namespace {
 
 /// What is scored is either a problem file or a sequence.
 struct Options {
-  pcrb_tools::ProblemScoringOptions problems;
-  pcrb_tools::TrackingOptions tracking;
+  ProblemScoringOptions problems;
+  TrackingOptions tracking;
   std::string frame = "data_set";
   std::optional<pcrb::Transform> T_body_sensor;
 };
 
-void addOffsets(CLI::App& app, CLI::Option* sequence, pcrb_tools::TrackingOptions& tracking) {
+void addOffsets(CLI::App& app, CLI::Option* sequence, TrackingOptions& tracking) {
   app.add_option("--time-offset", tracking.time_offset,
                  "seconds that are added to the timestamps of the poses")
       ->needs(sequence)
@@ -58,9 +59,8 @@ void addTrackingOptions(CLI::App& app, CLI::Option* sequence, Options& options) 
       ->capture_default_str();
   app.add_flag("--align", tracking.align, "align the trajectory rigidly before the absolute errors")
       ->needs(sequence);
-  pcrb_tools::addSensorInBodyOption(app, options.T_body_sensor, "the poses are the sensor's")
-      ->needs(sequence);
-  pcrb_tools::addPoseFormatOption(app, options.problems.poses.format)->needs(sequence);
+  addSensorInBodyOption(app, options.T_body_sensor, "the poses are the sensor's")->needs(sequence);
+  addPoseFormatOption(app, options.problems.poses.format)->needs(sequence);
   app.add_option("--tf", tracking.tf, "WORLD BODY: take the poses from tf between these frames")
       ->expected(2)
       ->needs(sequence);
@@ -105,7 +105,7 @@ int score(Options& options) {
     options.problems.pose_frame =
         options.frame == "data_set" ? pcrb::PoseFrame::kDataset : pcrb::PoseFrame::kMap;
     runProblemScoring(options.problems, std::cout);
-    return pcrb_tools::kSuccess;
+    return kSuccess;
   }
   if (options.tracking.folder.empty() || options.tracking.output.empty()) {
     throw pcrb::InvalidParameter(
@@ -113,15 +113,15 @@ int score(Options& options) {
   }
   options.tracking.poses = options.problems.poses;
   options.tracking.T_body_sensor = options.T_body_sensor.value_or(pcrb::Transform::Identity());
-  if (runTrackingScoring(options.tracking, std::cout)) return pcrb_tools::kSuccess;
+  if (runTrackingScoring(options.tracking, std::cout)) return kSuccess;
   std::cerr << "score_poses: more scans were lost than --max-lost "
             << pcrb::formatShortest(options.tracking.max_lost) << " allows" << std::endl;
-  return pcrb_tools::kFailure;
+  return kFailure;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Scores poses offline: of registration problems, into a run like the server's, or of a "
       "sequence's scans, with the field's errors of trajectories.");
@@ -132,5 +132,7 @@ int main(int argc, char** argv) {
       "score_poses --sequence ~/pcrb/tum/pioneer_slam --poses est.tum --output ~/runs/tracking");
   Options options;
   addOptions(app, options);
-  return pcrb_tools::runTool(app, argc, argv, [&options] { return score(options); });
+  return runTool(app, argc, argv, [&options] { return score(options); });
 }
+
+}  // namespace pcrb_tools::score_poses

@@ -1,9 +1,10 @@
 #include "bags/bag_tools.hpp"
 #include "common/tool_main.hpp"
 
+namespace pcrb_tools::sequence_to_bag {
 namespace {
 
-void addFrames(CLI::App& app, pcrb_tools::SequenceBagOptions& options) {
+void addFrames(CLI::App& app, SequenceBagOptions& options) {
   app.add_option("--scan-frame", options.sequence.scan_frame,
                  "tf frame of the scans, without truth")
       ->capture_default_str();
@@ -16,7 +17,7 @@ void addFrames(CLI::App& app, pcrb_tools::SequenceBagOptions& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Writes a sequence as a bag that `rosbag play --clock` replays for rviz: scans where they "
       "belong, the way of the sensor, a growing map.");
@@ -24,7 +25,7 @@ int main(int argc, char** argv) {
       "Example: sequence_to_bag ~/pcrb/eth/apartment -o apartment.bag\n"
       "For a node under test: sequence_to_bag ~/pcrb/planetary/p2at_met -o p2at_met.bag \\\n"
       "  --no-truth --map ~/pcrb/planetary/p2at_met/box_map.pcd --scans p2at_met_scans.txt");
-  pcrb_tools::SequenceBagOptions options;
+  SequenceBagOptions options;
   double rate = 2.0;
   app.add_option("folder", options.sequence.folder, "<root>/<data set>/<sequence>")->required();
   app.add_option("-o,--output", options.bag.output, "bag to write")->required();
@@ -53,10 +54,12 @@ int main(int argc, char** argv) {
                  "list to write of which scan has which timestamp, for score_poses");
   app.add_flag("--compress", options.bag.compress, "compress the bag by LZ4");
   app.add_flag("--force", options.bag.force, "replace a bag that this tool did not make");
-  return pcrb_tools::runTool(app, argc, argv, [&] {
+  return runTool(app, argc, argv, [&] {
     options.bag.period = 1.0 / rate;
     options.sequence.publish_ground_truth = !no_truth;
     runSequenceBagTool(options);
-    return pcrb_tools::kSuccess;
+    return kSuccess;
   });
 }
+
+}  // namespace pcrb_tools::sequence_to_bag

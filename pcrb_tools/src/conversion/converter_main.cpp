@@ -164,7 +164,7 @@ bool takeLiveFlag(int& argc, char** argv) {
 
 }  // namespace
 
-int runEthConverter(int argc, char** argv) {
+int eth_to_pcd::run(int argc, char** argv) {
   const ConverterHelp help{
       "Converts a sequence of the ETH / ASL data set.",
       "folders or archives (zip, tgz) with csv_global or with csv_local and leica",
@@ -177,7 +177,7 @@ int runEthConverter(int argc, char** argv) {
   return runOffline(argc, argv, help, options, request, convertEth);
 }
 
-int runPlanetaryConverter(int argc, char** argv) {
+int planetary_to_pcd::run(int argc, char** argv) {
   const ConverterHelp help{
       "Converts box_met or p2at_met of the Canadian planetary emulation terrain data set.",
       "folders or archives (zip, tgz) with <set>_NNN.xyz and .gt",
@@ -191,7 +191,7 @@ int runPlanetaryConverter(int argc, char** argv) {
   return runOffline(argc, argv, help, options, request, convertPlanetary);
 }
 
-int runTumConverter(int argc, char** argv) {
+int tum_to_pcd::run(int argc, char** argv) {
   const ConverterHelp help{
       "Converts a sequence of the TUM RGB-D data set.",
       "bags with clouds, raw bags with depth images and camera_info, or the data set's tgz or "
@@ -210,7 +210,7 @@ int runTumConverter(int argc, char** argv) {
   return runOffline(argc, argv, help, options, request, convertTum);
 }
 
-int runKaistConverter(int argc, char** argv) {
+int kaist_to_pcd::run(int argc, char** argv) {
   const ConverterHelp help{
       "Converts a sequence of the KAIST urban data set.",
       "folders or archives (tgz, zip) with sensor_data, calibration and global_pose.csv, or bags "

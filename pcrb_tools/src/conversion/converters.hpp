@@ -118,11 +118,18 @@ ConversionReport convertLive(const TumRequest& request, const LiveOptions& optio
 ConversionReport convertLive(const KaistRequest& request, const LiveOptions& options,
                              const pcrb::ShutdownRequest& shutdown);
 
-/// The programs `eth_to_pcd`, `planetary_to_pcd`, `tum_to_pcd` and `kaist_to_pcd`; the last two are
-/// nodes with `--live`. Return the exit status.
-int runEthConverter(int argc, char** argv);
-int runPlanetaryConverter(int argc, char** argv);
-int runTumConverter(int argc, char** argv);
-int runKaistConverter(int argc, char** argv);
+/// The programs; the last two are nodes with `--live`. Return the exit status.
+namespace eth_to_pcd {
+int run(int argc, char** argv);
+}
+namespace planetary_to_pcd {
+int run(int argc, char** argv);
+}
+namespace tum_to_pcd {
+int run(int argc, char** argv);
+}
+namespace kaist_to_pcd {
+int run(int argc, char** argv);
+}
 
 }  // namespace pcrb_tools
