@@ -33,10 +33,11 @@ endfunction()
 # The same for a test program, which is compiled more often than it is run: what takes its time is in libraries.
 function(pcrb_set_test_options target)
   pcrb_set_compile_options(${target})
+  pcrb_set_unity_build(${target})
   target_compile_options(${target} PRIVATE -O1)
 endfunction()
 
-# Compiles ten sources of a target in one go. Names in unnamed namespaces must then differ within the target.
+# Compiles sixteen sources of a target in one go. Names in unnamed namespaces must then differ within the target.
 function(pcrb_set_unity_build target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PCRB_UNITY} UNITY_BUILD_BATCH_SIZE 10)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PCRB_UNITY} UNITY_BUILD_BATCH_SIZE 16)
 endfunction()

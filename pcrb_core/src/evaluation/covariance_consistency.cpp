@@ -43,7 +43,7 @@ std::optional<std::vector<int>> axesOf(const Matrix6& C) {
   return axes;
 }
 
-std::string wordsOf(const Calibration& calibration, std::size_t units) {
+std::string verdictOf(const Calibration& calibration, std::size_t units) {
   if (units < kFewestUnits) return "too few pairs to tell";
   const bool middle_is_low = calibration.inside_50.high < 0.5;
   const bool middle_is_high = calibration.inside_50.low > 0.5;
@@ -159,7 +159,7 @@ Calibration calibrate(const std::vector<JudgedCovariance>& judged,
   const std::size_t trials = *std::max_element(units.begin(), units.end()) + 1;
   calibration.inside_50 = proportion(inside(judged, 0.5), trials);
   calibration.inside_95 = proportion(inside(judged, 0.95), trials);
-  calibration.verdict = wordsOf(calibration, trials);
+  calibration.verdict = verdictOf(calibration, trials);
   return calibration;
 }
 

@@ -27,10 +27,10 @@ struct Scaled {
 /// What T_residual does to points, seen from the centroid.
 Scaled displacementAbout(const Eigen::Vector3d& centroid, const Transform& T_residual) {
   const Transform T = inLocalFrame(requireRigid(T_residual.matrix().topRows<3>()), centroid);
-  constexpr int kLargestExponent = 300;  // coordinates up to 2^128 and squares still fit
+  constexpr int kExponentLimit = 300;  // coordinates up to 2^128 and squares still fit
   Scaled scaled;
   std::frexp(T.translation().lpNorm<Eigen::Infinity>(), &scaled.exponent);
-  if (scaled.exponent <= kLargestExponent) scaled.exponent = 0;
+  if (scaled.exponent <= kExponentLimit) scaled.exponent = 0;
   for (int row = 0; row < 3; ++row) {
     for (int i = 0; i < 3; ++i) {
       const double entry = T.linear()(row, i) - (row == i ? 1.0 : 0.0);

@@ -45,12 +45,12 @@ Presentation moved(const Presentation& presentation, const Transform& A, Present
 
 Transform secretTargetMotion(const Secret& secret, const std::string& subject,
                              const Eigen::Vector3d& middle, bool about_z) {
-  constexpr double kReach = 50.0;  // m
+  constexpr double kFarthest = 50.0;  // m
   Transform A = Transform::Identity();
   A.linear() = (about_z ? secret.yaw(subject) : secret.rotation(subject)).toRotationMatrix();
   for (int axis = 0; axis < 3; ++axis) {
     const double u = secret.uniform("shift " + std::to_string(axis), subject);
-    A.translation()[axis] = kReach * (2.0 * u - 1.0);
+    A.translation()[axis] = kFarthest * (2.0 * u - 1.0);
   }
   return A * Transform(Eigen::Translation3d(-middle));
 }

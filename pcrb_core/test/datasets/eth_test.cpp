@@ -14,7 +14,7 @@ const char* const kScan =
     "1314110923.5, 1.25, -2.5, 0.125, -1, 0.0, 0.0\n"
     "1314110923.6, -3.0625, 4, 1e-3, 2834, 0.0, 1.0\n";
 
-const char* const kPoses =
+const char* const kLeicaPoses =
     "poseId, timestamp, T00, T01, T02, T03, T10, T11, T12, T13, T20, T21, T22, T23, T30, T31, T32, "
     "T33\n"
     "0, 1314110923.5, 1, 0, 0, 0.5, 0, 1, 0, -0.25, 0, 0, 1, 2, 0, 0, 0, 1\n"
@@ -82,14 +82,14 @@ TEST(EthScan, IsReadAlikeUnderALocaleWithDecimalComma) {
 }
 
 TEST(LeicaPoses, ArePosesOfTheScannerInTheWorld) {
-  const auto poses = parseLeicaPoses(kPoses, "pose_scanner_leica.csv");
+  const auto poses = parseLeicaPoses(kLeicaPoses, "pose_scanner_leica.csv");
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses.at(0) * Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1.5, 1.75, 5));
   EXPECT_EQ(poses.at(1) * Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(8, 21, 33));
 }
 
 TEST(LeicaPoses, RejectsDefectiveRowsNamingTheLine) {
-  const std::string good(kPoses);
+  const std::string good(kLeicaPoses);
   const auto with = [&good](const char* row) { return good + row; };
   const char* const ok_tail = ", 1, 0, 0, 0.5, 0, 1, 0, -0.25, 0, 0, 1, 2, 0, 0, 0, 1\n";
   const auto expectError = [](const std::string& text, const char* message) {

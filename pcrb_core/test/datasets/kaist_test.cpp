@@ -21,7 +21,7 @@ const char* const kCalibration =
     "R: -0.514066 -0.702201 -0.492595 0.486485 -0.711672 0.506809 -0.706447 0.0208933 0.707457\r\n"
     "T: -0.440699 0.397052 1.90953\r\n";
 
-const char* const kPoses =
+const char* const kGlobalPoses =
     "1519102894400000000,0,-1,0,332100.125,1,0,0,4140500.25,0,0,1,21.5\n"
     "1519102894410000000, 0, -1, 0, 332101.125, 1, 0, 0, 4140500.25, 0, 0, 1, 21.5\r\n";
 
@@ -123,7 +123,7 @@ TEST(KaistCalibration, ReadsARealFile) {
 }
 
 TEST(KaistTrajectory, KeepsUtmInDouble) {
-  const Trajectory trajectory = parseKaistTrajectory(kPoses, "global_pose.csv");
+  const Trajectory trajectory = parseKaistTrajectory(kGlobalPoses, "global_pose.csv");
   ASSERT_EQ(trajectory.size(), 2u);
   EXPECT_EQ(trajectory.nearest(0).T_world_body.translation(),
             Eigen::Vector3d(332100.125, 4140500.25, 21.5));
@@ -134,7 +134,7 @@ TEST(KaistTrajectory, RejectsDefectsNamingTheLine) {
   const auto expectError = [](const std::string& text, const char* message) {
     PCRB_EXPECT_ERROR(InvalidFile, parseKaistTrajectory(text, "p.csv"), message);
   };
-  expectError(std::string(kPoses) + "1519102894420000000,0,-1,0,1,1,0,0,4,0,0,1\n",
+  expectError(std::string(kGlobalPoses) + "1519102894420000000,0,-1,0,1,1,0,0,4,0,0,1\n",
               "p.csv:3: found 11 numbers");
   expectError("1.5e18,0,-1,0,1,1,0,0,4,0,0,1,2\n", "p.csv:1: ");
   expectError("12\n", "p.csv:1: ");
@@ -144,7 +144,7 @@ TEST(KaistTrajectory, RejectsDefectsNamingTheLine) {
 }
 
 TEST(KaistPose, IsTheClosestOneOrInterpolatedOnRequestWithTheOffsetAdded) {
-  const Trajectory trajectory = parseKaistTrajectory(kPoses, "p.csv");
+  const Trajectory trajectory = parseKaistTrajectory(kGlobalPoses, "p.csv");
   const Stamp stamp = 1519102894404000000;
   KaistOptions options;
   EXPECT_EQ(kaistPose(trajectory, stamp, options).T_world_body.translation().x(), 332100.125);
@@ -157,7 +157,7 @@ TEST(KaistPose, IsTheClosestOneOrInterpolatedOnRequestWithTheOffsetAdded) {
 }
 
 TEST(KaistPose, ScansBeforeTheFirstPoseHaveNone) {
-  const Trajectory trajectory = parseKaistTrajectory(kPoses, "p.csv");
+  const Trajectory trajectory = parseKaistTrajectory(kGlobalPoses, "p.csv");
   EXPECT_EQ(kaistPose(trajectory, 1519102894399999999, {}).status, PoseStatus::kBeforeFirst);
   EXPECT_EQ(kaistPose(trajectory, 1519102894900000000, {}).status, PoseStatus::kAfterLast);
 }
@@ -172,7 +172,7 @@ TEST(ClosestStamp, PrefersTheEarlierOfTwoAtTheSameDistance) {
 
 TEST(MergeScans, EqualsANaiveComputationAtUtmMagnitude) {
   const Transform T_vehicle_sensor = parseKaistCalibration(kCalibration, "c.txt");
-  const Trajectory trajectory = parseKaistTrajectory(kPoses, "p.csv");
+  const Trajectory trajectory = parseKaistTrajectory(kGlobalPoses, "p.csv");
   const Transform left_pose = trajectory.nearest(0).T_world_body;
   const Transform right_pose = trajectory.nearest(std::numeric_limits<Stamp>::max()).T_world_body;
   const SensorScan scan = parseVelodyneScan(kRecord, OriginPoints::kDrop, "1.bin");
@@ -216,7 +216,8 @@ TEST(KaistNames, SequenceOfAFolderOrArchive) {
 TEST(KaistFiles, AreReadAlikeUnderALocaleWithDecimalComma) {
   const pcrb_test::DecimalComma comma;
   EXPECT_EQ(parseKaistCalibration(kCalibration, "c.txt").translation().z(), 1.90953);
-  EXPECT_EQ(parseKaistTrajectory(kPoses, "p.csv").nearest(0).T_world_body.translation().z(), 21.5);
+  EXPECT_EQ(parseKaistTrajectory(kGlobalPoses, "p.csv").nearest(0).T_world_body.translation().z(),
+            21.5);
   EXPECT_EQ(kaistCloudName("urban05", 1519102894479453000), "urban05_1519102894479453000.pcd");
 }
 

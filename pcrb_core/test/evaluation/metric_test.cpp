@@ -16,7 +16,7 @@ using pcrb_test::expectError;
 using pcrb_test::randomMotion;
 
 constexpr double kMax = std::numeric_limits<double>::max();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
 PointCloud cloudOf(std::vector<Eigen::Vector3f> points) {
   PointCloud cloud;
@@ -203,7 +203,7 @@ TEST(Metric, RefusesCloudsWithoutAPointThatCarriesWeight) {
 }
 
 TEST(Metric, RefusesCloudsThatAreNotFinite) {
-  for (const float bad : {kNaN, std::numeric_limits<float>::infinity()}) {
+  for (const float bad : {kNoNumber, std::numeric_limits<float>::infinity()}) {
     expectError<InvalidProblem>(
         [&] {
           Metric(cloudOf({{0, 0, 0}, {0, bad, 0}, {1, 0, 0}}));
@@ -215,7 +215,7 @@ TEST(Metric, RefusesCloudsThatAreNotFinite) {
 TEST(Metric, RefusesTransformsThatAreNotFiniteOrNotRigid) {
   const Metric metric(cross());
   Transform T = Transform::Identity();
-  T.translation().y() = kNaN;
+  T.translation().y() = kNoNumber;
   expectError<InvalidProblem>([&] { metric.evaluate(T); }, "not finite");
   expectError<InvalidProblem>([&] { metric.unnormalized(T); }, "not finite");
   T = Transform::Identity();

@@ -14,7 +14,7 @@
 namespace pcrb {
 namespace {
 
-constexpr double kMax = std::numeric_limits<double>::max();
+constexpr double kLargest = std::numeric_limits<double>::max();
 
 TEST(Quantile, InterpolatesBetweenOrderStatisticsAtQTimesNMinusOne) {
   const std::vector<double> values{1.0, 2.0, 4.0, 8.0};
@@ -67,11 +67,11 @@ TEST(Statistics, DoNotDependOnTheOrder) {
 }
 
 TEST(Statistics, StayFiniteForTheLargestDoubles) {
-  const Statistics statistics = describe({kMax, kMax, kMax, 0.0});
-  EXPECT_EQ(statistics.median, kMax);
-  EXPECT_DOUBLE_EQ(statistics.mean, kMax / 4.0 * 3.0);
-  EXPECT_DOUBLE_EQ(statistics.stddev, kMax / 4.0 * std::sqrt(3.0));
-  EXPECT_EQ(describe({kMax, kMax, kMax}).mean, kMax);
+  const Statistics statistics = describe({kLargest, kLargest, kLargest, 0.0});
+  EXPECT_EQ(statistics.median, kLargest);
+  EXPECT_DOUBLE_EQ(statistics.mean, kLargest / 4.0 * 3.0);
+  EXPECT_DOUBLE_EQ(statistics.stddev, kLargest / 4.0 * std::sqrt(3.0));
+  EXPECT_EQ(describe({kLargest, kLargest, kLargest}).mean, kLargest);
 }
 
 TEST(Statistics, OfEqualValuesHaveNoDeviation) {

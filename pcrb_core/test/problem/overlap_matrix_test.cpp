@@ -13,13 +13,13 @@
 namespace pcrb {
 namespace {
 
-OverlapMatrix parse(const std::string& text) {
+OverlapMatrix parseMatrix(const std::string& text) {
   return parseOverlapMatrix(text.data(), text.data() + text.size(), "m.txt");
 }
 
 std::string errorOf(const std::string& text) {
   try {
-    parse(text);
+    parseMatrix(text);
   } catch (const InvalidFile& error) {
     return error.what();
   }
@@ -27,7 +27,8 @@ std::string errorOf(const std::string& text) {
 }
 
 TEST(OverlapMatrix, RowIsTheSourceAndColumnTheTarget) {
-  const OverlapMatrix matrix = parse("overlap a.pcd b.pcd\r\na.pcd 1.0 0.25\r\nb.pcd 5e-05 1");
+  const OverlapMatrix matrix =
+      parseMatrix("overlap a.pcd b.pcd\r\na.pcd 1.0 0.25\r\nb.pcd 5e-05 1");
   EXPECT_EQ(matrix.names, (std::vector<std::string>{"a.pcd", "b.pcd"}));
   EXPECT_EQ(matrix.at(0, 1), 0.25);
   EXPECT_EQ(matrix.at(1, 0), 5e-05);
@@ -57,7 +58,7 @@ TEST(OverlapMatrix, PublishedMatricesAreReadAndWrittenAlike) {
     const OverlapMatrix matrix = readOverlapMatrix(path);
     EXPECT_EQ(matrix.names.size(), std::string(name) == "apartment" ? 45U : 149U);
     const std::string again = formatOverlapMatrix(matrix);
-    const OverlapMatrix read = parse(again);
+    const OverlapMatrix read = parseMatrix(again);
     EXPECT_EQ(read.names, matrix.names);
     EXPECT_EQ(read.values, matrix.values);
   }

@@ -15,7 +15,7 @@
 namespace pcrb {
 namespace {
 
-const Eigen::Vector3d kUtm(702000.0, 8045000.0, 30.0);
+const Eigen::Vector3d kFarCenter(702000.0, 8045000.0, 30.0);
 
 Eigen::Matrix3d someRotation() {
   return Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -2, 3).normalized()).toRotationMatrix();
@@ -23,7 +23,7 @@ Eigen::Matrix3d someRotation() {
 
 TEST(Perturbation, MovesItsCentreByTheTranslationAlone) {
   const Eigen::Vector3d t(0.3, -0.2, 0.6);
-  for (const Eigen::Vector3d& center : {Eigen::Vector3d(1, 2, 3), kUtm}) {
+  for (const Eigen::Vector3d& center : {Eigen::Vector3d(1, 2, 3), kFarCenter}) {
     const Transform P = makePerturbation(center, t, someRotation());
     EXPECT_LT((P * center - center - t).norm(), 1e-8);
     const Eigen::Vector3d beside = center + Eigen::Vector3d(1, 0, 0);
@@ -34,15 +34,17 @@ TEST(Perturbation, MovesItsCentreByTheTranslationAlone) {
 TEST(FrameCheck, AcceptsMotionUpToTheBoundAndItsSlack) {
   const PerturbationBounds bounds{{0, 1}, {0, 30}};
   EXPECT_DOUBLE_EQ(maxCentroidMotion(bounds), 1.3);
-  const auto moving = [](double t) { return makePerturbation(kUtm, {0, 0, t}, someRotation()); };
-  EXPECT_NO_THROW(checkFrame(moving(1.299), kUtm, bounds));
-  EXPECT_THROW(checkFrame(moving(1.301), kUtm, bounds), InvalidProblem);
+  const auto moving = [](double t) {
+    return makePerturbation(kFarCenter, {0, 0, t}, someRotation());
+  };
+  EXPECT_NO_THROW(checkFrame(moving(1.299), kFarCenter, bounds));
+  EXPECT_THROW(checkFrame(moving(1.301), kFarCenter, bounds), InvalidProblem);
 }
 
 TEST(FrameCheck, ExplainsCloudsInAnotherFrame) {
-  const Transform P = makePerturbation(2.0 * kUtm, {0, 0, 0.5}, someRotation());
+  const Transform P = makePerturbation(2.0 * kFarCenter, {0, 0, 0.5}, someRotation());
   try {
-    checkFrame(P, kUtm, {{0, 1}, {0, 30}});
+    checkFrame(P, kFarCenter, {{0, 1}, {0, 30}});
     FAIL() << "clouds at half the coordinates were accepted";
   } catch (const InvalidProblem& error) {
     const std::string message = error.what();
@@ -54,9 +56,9 @@ TEST(FrameCheck, ExplainsCloudsInAnotherFrame) {
 TEST(DatasetCloud, CentroidKeepsItsDigitsAtUtmCoordinates) {
   DatasetCloud cloud;
   for (int i = 0; i < 100000; ++i) {
-    cloud.points.push_back(kUtm + Eigen::Vector3d(0.125 * (i % 5), 0.25 * (i % 2), 0.0));
+    cloud.points.push_back(kFarCenter + Eigen::Vector3d(0.125 * (i % 5), 0.25 * (i % 2), 0.0));
   }
-  EXPECT_LT((centroid(cloud) - kUtm - Eigen::Vector3d(0.25, 0.125, 0.0)).norm(), 2e-9);
+  EXPECT_LT((centroid(cloud) - kFarCenter - Eigen::Vector3d(0.25, 0.125, 0.0)).norm(), 2e-9);
   EXPECT_THROW(centroid(DatasetCloud{}), InvalidProblem);
 }
 
@@ -80,8 +82,8 @@ Drawn draw(const PerturbationBounds& bounds) {
   Drawn drawn;
   Random random(42);
   for (int i = 0; i < kSamples; ++i) {
-    const Transform P = samplePerturbation(kUtm, bounds, random);
-    const Eigen::Vector3d t = P * kUtm - kUtm;
+    const Transform P = samplePerturbation(kFarCenter, bounds, random);
+    const Eigen::Vector3d t = P * kFarCenter - kFarCenter;
     const Eigen::AngleAxisd rotation(P.rotation());
     drawn.translations.push_back(t.normalized());
     drawn.axes.push_back(rotation.axis());
@@ -179,7 +181,7 @@ ProblemList someList(Kind kind) {
 }
 
 Eigen::Vector3d someCentroid(const std::string& source) {
-  return kUtm + Eigen::Vector3d(static_cast<double>(source.size()), 0, 0);
+  return kFarCenter + Eigen::Vector3d(static_cast<double>(source.size()), 0, 0);
 }
 
 TEST(ProblemSampling, HasThePublishedIdsAndCounts) {

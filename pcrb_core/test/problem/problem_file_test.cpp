@@ -19,14 +19,14 @@ const std::string kHeader = "id source target overlap t1 t2 t3 t4 t5 t6 t7 t8 t9
 const std::string kRow =
     "34562489690000 a.pcd b.pcd 0.4035 1 0 0 684738.3277612422 0 1 0 -2 0 0 1 3\n";
 
-std::vector<Problem> parse(const std::string& text) {
+std::vector<Problem> parseProblems(const std::string& text) {
   return parseProblemFile(text.data(), text.data() + text.size(), "file.txt");
 }
 
 /// What the reader says about a text; "no error" if it takes it.
-std::string messageFor(const std::string& text) {
+std::string messageForFile(const std::string& text) {
   try {
-    parse(text);
+    parseProblems(text);
   } catch (const InvalidFile& error) {
     return error.what();
   }
@@ -41,7 +41,7 @@ std::string rowWith(std::size_t field, const std::string& value) {
 }
 
 TEST(ProblemFile, ReadsARow) {
-  const auto problems = parse(kHeader + kRow);
+  const auto problems = parseProblems(kHeader + kRow);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].id, "34562489690000");
   EXPECT_EQ(problems[0].source, "a.pcd");
@@ -55,8 +55,8 @@ TEST(ProblemFile, ReadsARow) {
 TEST(ProblemFile, ReadsCrlfAndAMissingFinalNewline) {
   const std::string header = kHeader.substr(0, kHeader.size() - 1) + "\r\n";
   const std::string row = kRow.substr(0, kRow.size() - 1);
-  EXPECT_EQ(parse(header + row + "\r\n").size(), 1u);
-  EXPECT_EQ(parse(kHeader + row).size(), 1u);
+  EXPECT_EQ(parseProblems(header + row + "\r\n").size(), 1u);
+  EXPECT_EQ(parseProblems(kHeader + row).size(), 1u);
 }
 
 TEST(ProblemFile, WritesTheOfficialFilesByteForByte) {
@@ -75,86 +75,86 @@ TEST(ProblemFile, WritesTheOfficialFilesByteForByte) {
 
 TEST(ProblemFile, WrittenFileIsTheText) {
   const pcrb_test::TemporaryFolder folder;
-  writeProblemFile(folder.file("p.txt"), parse(kHeader + kRow));
+  writeProblemFile(folder.file("p.txt"), parseProblems(kHeader + kRow));
   EXPECT_EQ(FileBytes(folder.file("p.txt")).text(), kHeader + kRow);
 }
 
 TEST(ProblemFile, RejectsAnEmptyFile) {
-  EXPECT_EQ(messageFor(""), "file.txt: found an empty file, expected the header '" +
-                                kHeader.substr(0, kHeader.size() - 1) + "'");
+  EXPECT_EQ(messageForFile(""), "file.txt: found an empty file, expected the header '" +
+                                    kHeader.substr(0, kHeader.size() - 1) + "'");
 }
 
 TEST(ProblemFile, RejectsAnotherHeader) {
-  EXPECT_EQ(messageFor("id source target\n" + kRow),
+  EXPECT_EQ(messageForFile("id source target\n" + kRow),
             "file.txt:1: found 'id source target', expected '" +
                 kHeader.substr(0, kHeader.size() - 1) + "'");
-  EXPECT_NE(messageFor(kRow), "no error");
+  EXPECT_NE(messageForFile(kRow), "no error");
 }
 
 TEST(ProblemFile, RejectsAFileWithoutRows) {
-  EXPECT_EQ(messageFor(kHeader),
+  EXPECT_EQ(messageForFile(kHeader),
             "file.txt:1: found no problem, expected at least one row after the header");
 }
 
 TEST(ProblemFile, RejectsRowWithElevenTransformEntries) {
   const std::string row = kRow.substr(0, kRow.size() - 3) + "\n";
   EXPECT_EQ(
-      messageFor(kHeader + row),
+      messageForFile(kHeader + row),
       "file.txt:2: found 15 fields, expected 16: id, source, target, overlap and 12 transform "
       "entries");
 }
 
 TEST(ProblemFile, RejectsRowWithThirteenTransformEntries) {
   const std::string row = kRow.substr(0, kRow.size() - 1) + " 0\n";
-  EXPECT_EQ(messageFor(kHeader + row).substr(0, 28), "file.txt:2: found 17 fields,");
+  EXPECT_EQ(messageForFile(kHeader + row).substr(0, 28), "file.txt:2: found 17 fields,");
 }
 
 TEST(ProblemFile, PassesOverBlankLinesAndCountsThem) {
-  EXPECT_EQ(parse("\n" + kHeader + " \t\n" + kRow + "\n").size(), 1u);
-  EXPECT_EQ(messageFor(kHeader + "\nx\n").substr(0, 26), "file.txt:3: found 1 fields");
+  EXPECT_EQ(parseProblems("\n" + kHeader + " \t\n" + kRow + "\n").size(), 1u);
+  EXPECT_EQ(messageForFile(kHeader + "\nx\n").substr(0, 26), "file.txt:3: found 1 fields");
 }
 
 TEST(ProblemFile, RejectsIdsThatAreNoDigits) {
   for (const std::string id : {"3456248969000x", "-3456248969000", "1", "123456789012345678901"}) {
-    EXPECT_EQ(messageFor(kHeader + rowWith(0, id)),
+    EXPECT_EQ(messageForFile(kHeader + rowWith(0, id)),
               "file.txt:2: found '" + id + "', expected an id of 2 to 20 decimal digits");
   }
 }
 
 TEST(ProblemFile, RejectsAnIdTwice) {
-  EXPECT_EQ(messageFor(kHeader + kRow + kRow),
+  EXPECT_EQ(messageForFile(kHeader + kRow + kRow),
             "file.txt:3: found id 34562489690000 of line 2 again, expected an id of its own");
 }
 
 TEST(ProblemFile, RejectsNamesThatLeaveTheFolder) {
   for (const unsigned field : {1u, 2u}) {
     for (const std::string name : {"../a.pcd", "/a.pcd", "..", "a/b.pcd"}) {
-      EXPECT_EQ(messageFor(kHeader + rowWith(field, name)),
+      EXPECT_EQ(messageForFile(kHeader + rowWith(field, name)),
                 "file.txt:2: found '" + name +
                     "', expected a file name without folder, blanks or control characters");
     }
-    EXPECT_NE(messageFor(kHeader + rowWith(field, std::string("a\0b", 3))), "no error");
+    EXPECT_NE(messageForFile(kHeader + rowWith(field, std::string("a\0b", 3))), "no error");
   }
 }
 
 TEST(ProblemFile, RejectsImpossibleOverlaps) {
   for (const std::string overlap : {"1.0001", "-0.1"}) {
-    EXPECT_EQ(messageFor(kHeader + rowWith(3, overlap)),
+    EXPECT_EQ(messageForFile(kHeader + rowWith(3, overlap)),
               "file.txt:2: found '" + overlap + "', expected an overlap between 0 and 1");
   }
-  EXPECT_EQ(messageFor(kHeader + rowWith(3, "nan")),
+  EXPECT_EQ(messageForFile(kHeader + rowWith(3, "nan")),
             "file.txt:2: found 'nan' in column overlap, expected a finite number");
 }
 
 TEST(ProblemFile, RejectsTransformEntriesThatAreNoFiniteNumber) {
   for (const std::string entry : {"abc", "nan", "inf", "1e400", "1,5", "1.0x"}) {
-    EXPECT_EQ(messageFor(kHeader + rowWith(7, entry)),
+    EXPECT_EQ(messageForFile(kHeader + rowWith(7, entry)),
               "file.txt:2: found '" + entry + "' in column t4, expected a finite number");
   }
 }
 
 TEST(ProblemFile, WritesNoRowThatItWouldNotRead) {
-  const Problem good = parse(kHeader + kRow)[0];
+  const Problem good = parseProblems(kHeader + kRow)[0];
   std::vector<Problem> bad(5, good);
   bad[0].id = "x";
   bad[1].source = "a b.pcd";

@@ -6,7 +6,7 @@ namespace pcrb {
 namespace {
 
 using Action = ScanSchedule::Action;
-using Kind = AcceptanceRule::Kind;
+using Accept = AcceptanceRule::Kind;
 
 constexpr double kStart = 100.0;                // s
 constexpr std::int64_t kSpacing = 100'000'000;  // ns
@@ -14,7 +14,7 @@ constexpr std::int64_t kFirstStamp = 1'000'000'000'000;
 
 class ScanScheduleTest : public testing::Test {
  protected:
-  ScanSchedule sequence(Kind kind, int count = 2) {
+  ScanSchedule sequence(Accept kind, int count = 2) {
     AcceptanceRule rule;
     rule.kind = kind;
     rule.count = count;
@@ -39,7 +39,7 @@ class ScanScheduleTest : public testing::Test {
 };
 
 TEST_F(ScanScheduleTest, SendsTheFirstScanAtOnceAndTheNextAfterAnAnswerAndThePeriod) {
-  auto scans = sequence(Kind::kNth);
+  auto scans = sequence(Accept::kNth);
   EXPECT_EQ(scans.next(kStart), Action::kSendScan);
   send(scans, kStart);
   EXPECT_EQ(scans.next(kStart + 0.5), Action::kWait);
@@ -51,7 +51,7 @@ TEST_F(ScanScheduleTest, SendsTheFirstScanAtOnceAndTheNextAfterAnAnswerAndThePer
 
 TEST_F(ScanScheduleTest, KeepsTheRateOfASensorWhetherTheNodeAnswersOrNot) {
   policy_.keeps_rate = true;
-  auto scans = sequence(Kind::kNth, 3);
+  auto scans = sequence(Accept::kNth, 3);
   send(scans, kStart);
   EXPECT_EQ(scans.next(kStart + 0.05), Action::kWait);
   EXPECT_EQ(scans.next(kStart + 0.1001), Action::kSendScan);
@@ -63,14 +63,14 @@ TEST_F(ScanScheduleTest, KeepsTheRateOfASensorWhetherTheNodeAnswersOrNot) {
 }
 
 TEST_F(ScanScheduleTest, SendsTheNextScanWithoutAnAnswerAfterTheLimit) {
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   send(scans, kStart);
   EXPECT_EQ(scans.next(kStart + 0.999), Action::kWait);
   EXPECT_EQ(scans.next(kStart + 1.0), Action::kSendScan);
 }
 
 TEST_F(ScanScheduleTest, FollowsANodeThatAnswersAScanWhenTheNextComes) {
-  auto scans = sequence(Kind::kNth, 3);
+  auto scans = sequence(Accept::kNth, 3);
   double now = kStart;
   send(scans, now);
   for (int scan = 1; scan <= 3; ++scan) {
@@ -86,7 +86,7 @@ TEST_F(ScanScheduleTest, FollowsANodeThatAnswersAScanWhenTheNextComes) {
 
 TEST_F(ScanScheduleTest, SendsOneMoreScanAfterTheLastThatCounts) {
   policy_.max_scans = 2;
-  auto scans = sequence(Kind::kStable);
+  auto scans = sequence(Accept::kStable);
   send(scans, kStart);
   send(scans, kStart + 1.0);
   answer(scans, kStart + 1.01, 1);
@@ -101,7 +101,7 @@ TEST_F(ScanScheduleTest, SendsOneMoreScanAfterTheLastThatCounts) {
 
 TEST_F(ScanScheduleTest, SendsNoMoreOnceTheLastThatCountsIsAnswered) {
   policy_.max_scans = 2;
-  auto scans = sequence(Kind::kStable);
+  auto scans = sequence(Accept::kStable);
   for (int scan = 1; scan <= 2; ++scan) {
     send(scans, kStart + scan);
     answer(scans, kStart + scan, scan);
@@ -111,7 +111,7 @@ TEST_F(ScanScheduleTest, SendsNoMoreOnceTheLastThatCountsIsAnswered) {
 
 TEST_F(ScanScheduleTest, TheScanAfterTheLastDoesNotCount) {
   policy_.max_scans = 1;
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   send(scans, kStart);
   send(scans, kStart + 1.0);
   answer(scans, kStart + 1.01, 2);
@@ -120,7 +120,7 @@ TEST_F(ScanScheduleTest, TheScanAfterTheLastDoesNotCount) {
 }
 
 TEST_F(ScanScheduleTest, AtTheDeadlineTheLastAnswerIsSubmitted) {
-  auto scans = sequence(Kind::kDeadline);
+  auto scans = sequence(Accept::kDeadline);
   send(scans, kStart);
   answer(scans, kStart + 0.01, 1);
   send(scans, kStart + 8.0);
@@ -132,14 +132,14 @@ TEST_F(ScanScheduleTest, AtTheDeadlineTheLastAnswerIsSubmitted) {
 }
 
 TEST_F(ScanScheduleTest, ASilentNodeIsGivenUpAtTheDeadlineWithTheReason) {
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   for (double now = kStart; now < kStart + 9.0; now += 1.0) send(scans, now);
   EXPECT_EQ(scans.next(kStart + 9.0), Action::kGiveUp);
   EXPECT_EQ(scans.reason(kStart + 9.0), "the node said nothing to 9 scans");
 }
 
 TEST_F(ScanScheduleTest, ANodeThatFallsSilentIsSaidToHaveDoneSo) {
-  auto scans = sequence(Kind::kStable);
+  auto scans = sequence(Accept::kStable);
   for (double now = kStart; now < kStart + 9.0; now += 1.0) send(scans, now);
   answer(scans, kStart + 8.5, 1);
   EXPECT_EQ(scans.next(kStart + 9.0), Action::kSubmit);
@@ -148,13 +148,13 @@ TEST_F(ScanScheduleTest, ANodeThatFallsSilentIsSaidToHaveDoneSo) {
 }
 
 TEST_F(ScanScheduleTest, MatchesStampsThatWentThroughMicroseconds) {
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   scans.scanSent(kStart, kFirstStamp + 123);
   EXPECT_TRUE(scans.answerReceived(kStart, kFirstStamp, Transform::Identity(), std::nullopt));
 }
 
 TEST_F(ScanScheduleTest, RefusesAnswersToScansOfAnotherProblem) {
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   send(scans, kStart);
   EXPECT_FALSE(scans.answerReceived(kStart, stamp(0), Transform::Identity(), std::nullopt));
   EXPECT_EQ(scans.next(kStart + 0.5), Action::kWait);
@@ -162,7 +162,7 @@ TEST_F(ScanScheduleTest, RefusesAnswersToScansOfAnotherProblem) {
 
 TEST_F(ScanScheduleTest, MatchesByArrivalWhereStampsSayNothing) {
   policy_.match_by_stamp = false;
-  auto scans = sequence(Kind::kNth, 2);
+  auto scans = sequence(Accept::kNth, 2);
   EXPECT_FALSE(
       scans.answerReceived(kStart, 0, Transform::Identity(), std::nullopt));  // no scan is out
   send(scans, kStart);
@@ -175,7 +175,7 @@ TEST_F(ScanScheduleTest, MatchesByArrivalWhereStampsSayNothing) {
 }
 
 TEST_F(ScanScheduleTest, ANodeFinishesWhenItHasAnsweredTheLastScanNotWithALateAnswerToAnOlderOne) {
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   send(scans, kStart);
   send(scans, kStart + 1.0);
   answer(scans, kStart + 1.5, 1);
@@ -186,7 +186,7 @@ TEST_F(ScanScheduleTest, ANodeFinishesWhenItHasAnsweredTheLastScanNotWithALateAn
 }
 
 TEST_F(ScanScheduleTest, ANodeMayFinishAfterTheDeadline) {
-  auto scans = sequence(Kind::kDeadline);
+  auto scans = sequence(Accept::kDeadline);
   send(scans, kStart);
   answer(scans, kStart + 5.0, 1);
   send(scans, kStart + 5.1);
@@ -195,13 +195,13 @@ TEST_F(ScanScheduleTest, ANodeMayFinishAfterTheDeadline) {
 }
 
 TEST_F(ScanScheduleTest, ANodeThatNeverAnsweredHasAsLongAgainAsItWasSentScansFor) {
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   for (double now = kStart; now < kStart + 9.0; now += 1.0) send(scans, now);
   EXPECT_NEAR(scans.timeToFinish(kStart + 9.0), 7.0, 1e-9);
 }
 
 TEST_F(ScanScheduleTest, ANodeThatHeldItsLastScanInVainIsNotWaitedForAgain) {
-  auto first = sequence(Kind::kFirst);
+  auto first = sequence(Accept::kFirst);
   send(first, kStart);
   send(first, kStart + 1.0);
   answer(first, kStart + 1.1, 1);
@@ -209,7 +209,7 @@ TEST_F(ScanScheduleTest, ANodeThatHeldItsLastScanInVainIsNotWaitedForAgain) {
   response_time_ = first.responseTimeAtEnd(kStart + 1.1 + first.timeToFinish(kStart + 1.1));
   ASSERT_TRUE(response_time_.holdsLastScan());
 
-  auto second = sequence(Kind::kNth);
+  auto second = sequence(Accept::kNth);
   send(second, kStart);
   send(second, kStart + 3.0);
   answer(second, kStart + 3.1, 1);
@@ -221,14 +221,14 @@ TEST_F(ScanScheduleTest, ANodeThatHeldItsLastScanInVainIsNotWaitedForAgain) {
 
 TEST_F(ScanScheduleTest, ASilentNodeHoldsMoreThanItsLastScan) {
   response_time_.setHoldsLastScan(true);
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   send(scans, kStart);
   EXPECT_GT(scans.timeToFinish(kStart + 0.5), 0.0);
 }
 
 TEST_F(ScanScheduleTest, ASlowNodeIsGivenTheTimeThatItNeedsBeforeTheNextScan) {
   response_time_.add(1.5);
-  auto scans = sequence(Kind::kNth);
+  auto scans = sequence(Accept::kNth);
   send(scans, kStart);
   EXPECT_EQ(scans.next(kStart + 2.99), Action::kWait);
   EXPECT_EQ(scans.next(kStart + 3.0), Action::kSendScan);
@@ -260,7 +260,7 @@ TEST_F(ScanScheduleTest, AfterAnEchoTheNextScanWaitsForTheAnswerAsLongAsOneTakes
 
 TEST_F(ScanScheduleTest, WithoutStampsAnAnswerEndsTheWorkOnTheOldestScan) {
   policy_.match_by_stamp = false;
-  auto scans = sequence(Kind::kFirst);
+  auto scans = sequence(Accept::kFirst);
   send(scans, kStart);
   send(scans, kStart + 1.0);
   scans.answerReceived(kStart + 1.5, 0, Transform::Identity(), std::nullopt);

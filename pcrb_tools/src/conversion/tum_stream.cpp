@@ -12,7 +12,7 @@ namespace pcrb_tools {
 namespace {
 
 /// Images that may wait for the camera: it is published with every image.
-constexpr std::size_t kMostWaiting = 64;
+constexpr std::size_t kMostWaitingImages = 64;
 
 constexpr const char* kNoCamera = "without a camera_info";
 
@@ -100,7 +100,7 @@ void TumStream::addDepth(const sensor_msgs::Image::ConstPtr& image) {
     return;
   }
   waiting_.push_back(image);
-  if (waiting_.size() <= kMostWaiting) return;
+  if (waiting_.size() <= kMostWaitingImages) return;
   conversion_.drop(TumScanSelector::cloudName(pcrb::stampOf(waiting_.front()->header.stamp)),
                    kNoCamera);
   waiting_.pop_front();

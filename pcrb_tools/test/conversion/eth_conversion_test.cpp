@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kGlobalHeader = "Time_in_sec, x, y, z, Intensities, 2DscanId, PointId\n";
-const std::string kPoses =
+const std::string kLeicaPoses =
     "poseId, timestamp, T00, T01, T02, T03, T10, T11, T12, T13, T20, T21, T22, T23, T30, T31, T32, "
     "T33\n"
     "0, 1314110923.5, 0.36, 0.48, -0.8, 100.125, -0.8, 0.6, 0, -20.5, 0.48, 0.64, 0.6, 1.75, "
@@ -58,7 +58,7 @@ pcrb_test::NamedFiles localFiles() {
       "\"Time_in_sec\",\"X\",\"Y\",\"Z\",\"Intensities\",\"2DscanId\",\"Points\"\r\n";
   return {{"csv_local/Hokuyo_0.csv", header + localRow(kLocal0[0]) + localRow(kLocal0[1])},
           {"csv_local/Hokuyo_10.csv", header + localRow(kLocal10[0])},
-          {"leica/pose_scanner_leica.csv", kPoses}};
+          {"leica/pose_scanner_leica.csv", kLeicaPoses}};
 }
 
 class EthConversion : public testing::Test {
@@ -146,7 +146,7 @@ TEST_F(EthConversion, ARerunKeepsWhatIsCompleteAndUnchangedOnly) {
   report = convertEth(request(log_));
   EXPECT_EQ(report.scans_kept, 1u);
   EXPECT_EQ(pcrb::readPcd(cloudPath("PointCloud10.pcd")).points.at(0).x(), 5.0);
-  pcrb_test::writeFile(log_ + "/pose_scanner_leica.csv", kPoses);
+  pcrb_test::writeFile(log_ + "/pose_scanner_leica.csv", kLeicaPoses);
   EXPECT_EQ(convertEth(request(log_)).scans_kept, 0u);  // now there are viewpoints
 }
 

@@ -9,13 +9,13 @@
 namespace pcrb_tools {
 namespace {
 
-constexpr pcrb::Stamp kStart = 1311878220 * pcrb::kSecond;
+constexpr pcrb::Stamp kFirstStamp = 1311878220 * pcrb::kSecond;
 
 /// 12 s of poses, 100 Hz.
 pcrb::Trajectory makeTrajectory() {
   std::vector<pcrb::StampedPose> poses;
   for (int i = 0; i <= 1200; ++i) {
-    poses.push_back({kStart + i * pcrb::kSecond / 100, pcrb::Transform::Identity()});
+    poses.push_back({kFirstStamp + i * pcrb::kSecond / 100, pcrb::Transform::Identity()});
   }
   return pcrb::Trajectory(poses);
 }
@@ -29,7 +29,7 @@ class TumScanSelectorAtTwoHertz : public testing::Test {
   }
 
   static pcrb::Stamp stampOf(double seconds) {
-    return kStart + static_cast<pcrb::Stamp>(seconds * 1e9);
+    return kFirstStamp + static_cast<pcrb::Stamp>(seconds * 1e9);
   }
 
   bool selects(double seconds) { return selector_->select(stampOf(seconds)).has_value(); }

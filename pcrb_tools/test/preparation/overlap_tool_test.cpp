@@ -15,19 +15,13 @@
 #include "pcrb_core/random.hpp"
 #include "preparation/preparation_tools.hpp"
 #include "support/expect_error.hpp"
+#include "support/log_folder.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb_tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string textOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Twelve clouds in `<root>/eth/plain`.
 class OverlapToolTest : public ::testing::Test {
@@ -72,20 +66,20 @@ TEST_F(OverlapToolTest, WritesTheMatrixBesideTheFolderWithTheDataSetsDistance) {
 TEST_F(OverlapToolTest, KeepsACompleteOutputAndRemakesItWhenAnInputChanged) {
   runOverlapTool(options_);
   const auto made = fs::last_write_time(output_);
-  const std::string text = textOf(output_);
+  const std::string text = pcrb_test::readFile(output_);
   runOverlapTool(options_);
   EXPECT_EQ(fs::last_write_time(output_), made);
   writeCloud(3, 200);
   runOverlapTool(options_);
-  EXPECT_NE(textOf(output_), text);
+  EXPECT_NE(pcrb_test::readFile(output_), text);
 }
 
 TEST_F(OverlapToolTest, GoesOnFromAJournalWithATornLastLine) {
   runOverlapTool(options_);
-  const std::string complete = textOf(output_);
+  const std::string complete = pcrb_test::readFile(output_);
   // What an interrupted run leaves behind: column 0 (here with a value that tells it apart), and
   // half of column 1.
-  std::string side = textOf(pcrb::sideFile(output_));
+  std::string side = pcrb_test::readFile(pcrb::sideFile(output_));
   side.resize(side.find("output_blake2b"));
   std::string journal = side + "0 1";
   for (int i = 1; i < 12; ++i) journal += " 0.125";
@@ -103,8 +97,8 @@ TEST_F(OverlapToolTest, GoesOnFromAJournalWithATornLastLine) {
 
 TEST_F(OverlapToolTest, AColumnOfAJournalWithAValueThatIsNoShareIsComputedAnew) {
   runOverlapTool(options_);
-  const std::string complete = textOf(output_);
-  std::string journal = textOf(pcrb::sideFile(output_));
+  const std::string complete = pcrb_test::readFile(output_);
+  std::string journal = pcrb_test::readFile(pcrb::sideFile(output_));
   journal.resize(journal.find("output_blake2b"));
   journal += "0 1";
   for (int i = 1; i < 11; ++i) journal += " 0.125";
@@ -112,14 +106,14 @@ TEST_F(OverlapToolTest, AColumnOfAJournalWithAValueThatIsNoShareIsComputedAnew) 
     std::ofstream(output_ + ".partial", std::ios::binary) << journal << " " << value << "\n";
     fs::remove(output_);
     runOverlapTool(options_);
-    EXPECT_EQ(textOf(output_), complete) << value;
+    EXPECT_EQ(pcrb_test::readFile(output_), complete) << value;
   }
 }
 
 TEST_F(OverlapToolTest, AJournalOfOtherCloudsOfTheSameSizesIsBegunAnew) {
-  const std::string cloud = textOf(cloudFile(3));
+  const std::string cloud = pcrb_test::readFile(cloudFile(3));
   runOverlapTool(options_);
-  std::string journal = textOf(pcrb::sideFile(output_));
+  std::string journal = pcrb_test::readFile(pcrb::sideFile(output_));
   journal.resize(journal.find("output_blake2b"));
   journal += "0 1";
   for (int i = 1; i < 12; ++i) journal += " 0.125";
@@ -162,7 +156,7 @@ TEST_F(OverlapToolTest, JournalOfOtherParametersIsBegunAnew) {
 TEST_F(OverlapToolTest, DoesNotReplaceAFileThatItDidNotMakeUnlessForced) {
   std::ofstream(output_) << "published\n";
   EXPECT_THROW(runOverlapTool(options_), pcrb::InvalidFile);
-  EXPECT_EQ(textOf(output_), "published\n");
+  EXPECT_EQ(pcrb_test::readFile(output_), "published\n");
   options_.force = true;
   runOverlapTool(options_);
   std::ofstream(output_, std::ios::app) << "edited by hand\n";

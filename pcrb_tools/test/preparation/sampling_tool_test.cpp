@@ -13,6 +13,7 @@
 #include "pcrb_core/problem/problem.hpp"
 #include "pcrb_core/random.hpp"
 #include "preparation/preparation_tools.hpp"
+#include "support/log_folder.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace pcrb_tools {
@@ -20,13 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using pcrb::Kind;
-
-std::string textOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Twenty clouds at UTM coordinates and a map in `<root>/planetary/p2at_met`, with overlaps.
 class SamplingToolTest : public ::testing::Test {
@@ -86,17 +80,17 @@ TEST_F(SamplingToolTest, WritesBothListsWithinTheDataSetsBounds) {
 TEST_F(SamplingToolTest, RecordsTheSeedAndGivesTheSameBytesForIt) {
   options_.seed = 77;
   runSamplingTool(options_);
-  const std::string problems_77 = textOf(output("p2at_met_local.txt"));
-  const std::string side_77 = textOf(output("p2at_met_local.txt.yaml"));
+  const std::string problems_77 = pcrb_test::readFile(output("p2at_met_local.txt"));
+  const std::string side_77 = pcrb_test::readFile(output("p2at_met_local.txt.yaml"));
   EXPECT_NE(side_77.find("\n  seed: '77'\n"), std::string::npos) << side_77;
   options_.seed = 78;
   options_.threads = 2;
   runSamplingTool(options_);
-  EXPECT_NE(textOf(output("p2at_met_local.txt")), problems_77);
+  EXPECT_NE(pcrb_test::readFile(output("p2at_met_local.txt")), problems_77);
   options_.seed = 77;
   runSamplingTool(options_);
-  EXPECT_EQ(textOf(output("p2at_met_local.txt")), problems_77);
-  EXPECT_EQ(textOf(output("p2at_met_local.txt.yaml")), side_77);
+  EXPECT_EQ(pcrb_test::readFile(output("p2at_met_local.txt")), problems_77);
+  EXPECT_EQ(pcrb_test::readFile(output("p2at_met_local.txt.yaml")), side_77);
 }
 
 TEST_F(SamplingToolTest, MapModePosesEveryScanAgainstTheMapInBothLists) {
@@ -124,14 +118,14 @@ TEST_F(SamplingToolTest, KeepsCompleteListsAndDoesNotReplacePublishedOnes) {
   EXPECT_EQ(fs::last_write_time(output("p2at_met_local.txt")), made);
   std::ofstream(output("p2at_met_global.txt")) << "published\n";
   EXPECT_THROW(runSamplingTool(options_), pcrb::InvalidFile);
-  EXPECT_EQ(textOf(output("p2at_met_global.txt")), "published\n");
+  EXPECT_EQ(pcrb_test::readFile(output("p2at_met_global.txt")), "published\n");
 }
 
 TEST_F(SamplingToolTest, NoteBoundsAreThoseOfUpstreamsNote) {
   options_.bounds = pcrb::BoundsSource::kNote;
   options_.kinds = {Kind::kLocal};
   runSamplingTool(options_);
-  EXPECT_NE(textOf(output("p2at_met_local.txt.yaml")).find("translation_m: '0 2'"),
+  EXPECT_NE(pcrb_test::readFile(output("p2at_met_local.txt.yaml")).find("translation_m: '0 2'"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(output("p2at_met_global.txt")));
 }

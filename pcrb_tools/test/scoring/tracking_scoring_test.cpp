@@ -16,7 +16,7 @@
 namespace pcrb_tools {
 namespace {
 
-constexpr std::uint32_t kScans = 20;
+constexpr std::uint32_t kScanCount = 20;
 
 /// Where the sensor was, with turns and a speed that changes.
 pcrb::Transform sensorAt(double s) {
@@ -34,7 +34,7 @@ std::string number(double value) { return ' ' + pcrb::formatShortest(value); }
 /// The true poses in TUM's format, w last or first.
 std::string tumText(double offset, bool w_first = false) {
   std::string text;
-  for (std::uint32_t k = 0; k != kScans; ++k) {
+  for (std::uint32_t k = 0; k != kScanCount; ++k) {
     const pcrb::Transform T = sensorAt(secondsOf(k));
     const Eigen::Quaterniond q(T.linear());
     text += pcrb::formatFixed(1500000000.0 + secondsOf(k) - offset, 6);
@@ -50,7 +50,7 @@ std::string tumText(double offset, bool w_first = false) {
 class TrackingScoring : public ::testing::Test {
  protected:
   TrackingScoring() {
-    for (std::uint32_t k = 0; k != kScans; ++k) {
+    for (std::uint32_t k = 0; k != kScanCount; ++k) {
       pcrb::DatasetCloud cloud;
       cloud.viewpoint = sensorAt(secondsOf(k));
       for (const Eigen::Vector3d& point : {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(-4, 0, 1)}) {
@@ -95,7 +95,7 @@ TEST_F(TrackingScoring, TakesEveryFormatOfTrajectories) {
   std::string kitti;
   std::string csv = "file,x,y,z,qw,qx,qy,qz\n";
   std::string euroc = "#timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z\n";
-  for (std::uint32_t k = 0; k != kScans; ++k) {
+  for (std::uint32_t k = 0; k != kScanCount; ++k) {
     const pcrb::Transform T = sensorAt(secondsOf(k));
     const Eigen::Quaterniond q(T.linear());
     std::string row;
@@ -129,10 +129,10 @@ TEST_F(TrackingScoring, TakesAPathAndTfOfABag) {
   {
     rosbag::Bag bag(options_.poses.path, rosbag::bagmode::Write);
     nav_msgs::Path path;
-    path.header = pcrb_test::header("map", kScans - 1);
+    path.header = pcrb_test::header("map", kScanCount - 1);
     const pcrb::Transform T_odom_base = sensorAt(0).inverse();
     bag.write("/tf", pcrb_test::scanTime(0), pcrb_test::tfOf(sensorAt(0), "map", "odom", 0));
-    for (std::uint32_t k = 0; k != kScans; ++k) {
+    for (std::uint32_t k = 0; k != kScanCount; ++k) {
       geometry_msgs::PoseStamped pose;
       pose.header = pcrb_test::header("map", k);
       pose.pose = pcrb::toMessage(sensorAt(secondsOf(k)));
@@ -140,7 +140,7 @@ TEST_F(TrackingScoring, TakesAPathAndTfOfABag) {
       bag.write("/tf", pcrb_test::scanTime(k),
                 pcrb_test::tfOf(T_odom_base * sensorAt(secondsOf(k)), "odom", "base_link", k));
     }
-    bag.write("/path", pcrb_test::scanTime(kScans - 1), path);
+    bag.write("/path", pcrb_test::scanTime(kScanCount - 1), path);
   }
   PCRB_EXPECT_ERROR(pcrb::InvalidParameter, score(),
                     "found neither --topic nor --tf, expected where the poses are");
@@ -168,7 +168,7 @@ TEST_F(TrackingScoring, AddsATimeOffsetAndEstimatesOne) {
 
 TEST_F(TrackingScoring, AMotionThatDoesNotChangeSaysNothingOfTime) {
   std::vector<pcrb::StampedPose> straight;
-  for (std::uint32_t k = 0; k != kScans; ++k) {
+  for (std::uint32_t k = 0; k != kScanCount; ++k) {
     straight.push_back({k * pcrb::kSecond, pcrb::Transform(Eigen::Translation3d(k, 0, 0))});
   }
   PCRB_EXPECT_ERROR(
