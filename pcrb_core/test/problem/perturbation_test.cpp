@@ -104,7 +104,8 @@ double chiSquareOfDirections(const std::vector<Eigen::Vector3d>& directions) {
         std::clamp(static_cast<int>((direction.z() + 1.0) / 2.0 * kRings), 0, kRings - 1);
     const double turn = (std::atan2(direction.y(), direction.x()) + M_PI) / (2.0 * M_PI);
     const int sector = std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1);
-    ++counts[static_cast<std::size_t>(ring * kSectors + sector)];
+    const int cell = ring * kSectors + sector;
+    ++counts[static_cast<std::size_t>(cell)];
   }
   const double expected = static_cast<double>(directions.size()) / (kRings * kSectors);
   double sum = 0.0;
