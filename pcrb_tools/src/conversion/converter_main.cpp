@@ -164,7 +164,10 @@ bool takeLiveFlag(int& argc, char** argv) {
 
 }  // namespace
 
-int eth_to_pcd::run(int argc, char** argv) {
+// The programs, which tools/main.cpp calls; the last two are nodes with `--live`.
+
+namespace eth_to_pcd {
+int run(int argc, char** argv) {
   const ConverterHelp help{
       "Converts a sequence of the ETH / ASL data set.",
       "folders or archives (zip, tgz) with csv_global or with csv_local and leica",
@@ -176,8 +179,10 @@ int eth_to_pcd::run(int argc, char** argv) {
   addEthOptions(options, request);
   return runOffline(argc, argv, help, options, request, convertEth);
 }
+}  // namespace eth_to_pcd
 
-int planetary_to_pcd::run(int argc, char** argv) {
+namespace planetary_to_pcd {
+int run(int argc, char** argv) {
   const ConverterHelp help{
       "Converts box_met or p2at_met of the Canadian planetary emulation terrain data set.",
       "folders or archives (zip, tgz) with <set>_NNN.xyz and .gt",
@@ -190,8 +195,10 @@ int planetary_to_pcd::run(int argc, char** argv) {
                     "share of a scan's lines that may be no point, 0 to 1");
   return runOffline(argc, argv, help, options, request, convertPlanetary);
 }
+}  // namespace planetary_to_pcd
 
-int tum_to_pcd::run(int argc, char** argv) {
+namespace tum_to_pcd {
+int run(int argc, char** argv) {
   const ConverterHelp help{
       "Converts a sequence of the TUM RGB-D data set.",
       "bags with clouds, raw bags with depth images and camera_info, or the data set's tgz or "
@@ -209,8 +216,10 @@ int tum_to_pcd::run(int argc, char** argv) {
   if (takeLiveFlag(argc, argv)) return runAsNode(argc, argv, help, options, request, live);
   return runOffline(argc, argv, help, options, request, convertTum);
 }
+}  // namespace tum_to_pcd
 
-int kaist_to_pcd::run(int argc, char** argv) {
+namespace kaist_to_pcd {
+int run(int argc, char** argv) {
   const ConverterHelp help{
       "Converts a sequence of the KAIST urban data set.",
       "folders or archives (tgz, zip) with sensor_data, calibration and global_pose.csv, or bags "
@@ -228,5 +237,6 @@ int kaist_to_pcd::run(int argc, char** argv) {
   if (takeLiveFlag(argc, argv)) return runAsNode(argc, argv, help, options, request, live);
   return runOffline(argc, argv, help, options, request, convertKaist);
 }
+}  // namespace kaist_to_pcd
 
 }  // namespace pcrb_tools

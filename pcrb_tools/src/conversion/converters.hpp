@@ -118,18 +118,4 @@ ConversionReport convertLive(const TumRequest& request, const LiveOptions& optio
 ConversionReport convertLive(const KaistRequest& request, const LiveOptions& options,
                              const pcrb::ShutdownRequest& shutdown);
 
-/// The programs; the last two are nodes with `--live`. Return the exit status.
-namespace eth_to_pcd {
-int run(int argc, char** argv);
-}
-namespace planetary_to_pcd {
-int run(int argc, char** argv);
-}
-namespace tum_to_pcd {
-int run(int argc, char** argv);
-}
-namespace kaist_to_pcd {
-int run(int argc, char** argv);
-}
-
 }  // namespace pcrb_tools
