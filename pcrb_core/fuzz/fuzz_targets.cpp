@@ -14,10 +14,10 @@
 #include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"
-#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/problem/overlap_matrix.hpp"
 #include "pcrb_core/problem/problem.hpp"
 

@@ -165,7 +165,7 @@ def element(name, points, style):
     if style.get('dash'):
         text += f' stroke-dasharray="{style["dash"]}"'
     title = f'<title>{escape(style["title"])}</title>' if style.get('title') else ''
-    (x, y), flat = points[0], [coordinate(value) for point in points for value in point]
+    flat = [coordinate(value) for point in points for value in point]
     if name == 'line':
         return f'<line x1="{flat[0]}" y1="{flat[1]}" x2="{flat[2]}" y2="{flat[3]}"{text}>{title}</line>'
     if name == 'squares':

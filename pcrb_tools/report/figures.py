@@ -10,6 +10,7 @@ from matplotlib.collections import PolyCollection  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.patches import Circle, Polygon  # noqa: E402
 
+import box_charts  # noqa: E402
 import calibration  # noqa: E402
 import charts  # noqa: E402
 import series  # noqa: E402
@@ -137,8 +138,8 @@ def figures_of(section):
         yield ('overlaps', sheet([(p['selection'], charts.overlaps(p)) for p in numbers['overlaps']]),
                f'Overlap of the pairs of clouds of the {kind} problems. Dashed: the median.')
     if tables.get('components'):
-        yield ('components', sheet([('translation', charts.components(tables['components'], inks, ['x', 'y', 'z'], 'm')),
-                                    ('rotation', charts.components(tables['components'], inks, ['roll', 'pitch', 'yaw'], 'degrees'))],
+        yield ('components', sheet([('translation', box_charts.components(tables['components'], inks, ['x', 'y', 'z'], 'm')),
+                                    ('rotation', box_charts.components(tables['components'], inks, ['roll', 'pitch', 'yaw'], 'degrees'))],
                                    inks), f'Errors along and about each axis, answered {kind} problems: median, quartiles, and the '
                'quantiles 0.05 to 0.95.')
     swept = series.sweeps(tables['sweeps'], untouched) if tables.get('sweeps') else []
@@ -150,7 +151,7 @@ def figures_of(section):
         yield ('calibration', sheet([('', calibrated)], {curve['method']: inks[curve['method']] for curve in numbers['calibration']['curves']}),
                f'Fraction of the errors that lie in the ellipsoid of each probability, {kind} problems. Dashed: right covariances; a '
                'curve below says too little (overconfident), one above too much.')
-    latency = charts.latencies(tables['runtimes'], inks) if tables.get('runtimes') else None
+    latency = box_charts.latencies(tables['runtimes'], inks) if tables.get('runtimes') else None
     if latency:
         yield ('latencies', sheet([('', latency)]), f'Time from a source to its reply, {kind} problems: median, quantiles 0.05 to 0.95.')
     if numbers['times']:

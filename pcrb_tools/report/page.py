@@ -1,6 +1,7 @@
 """What the page's template shows of a section of report.json: charts, and numbers in other arrangements."""
 from markupsafe import Markup
 
+import box_charts
 import calibration
 import charts
 import series
@@ -204,10 +205,10 @@ def view(section, figures):
         'sweep_charts': [{'name': chart['name'], 'svg': svg(chart['drawing'])} for chart in series.sweeps(present['sweeps'], untouched)]
                         if 'sweeps' in present else [],
         'calibration': svg(calibration.curves(numbers['calibration'], inks)),
-        'latencies': svg(charts.latencies(present['runtimes'], inks)) if 'runtimes' in present else None,
+        'latencies': svg(box_charts.latencies(present['runtimes'], inks)) if 'runtimes' in present else None,
         'over_time': svg(charts.error_over_time(numbers['times'], inks, untouched)) if numbers['times'] else None,
     }
     if 'components' in present:
-        made['translation'] = svg(charts.components(present['components'], inks, ['x', 'y', 'z'], 'm'))
-        made['rotation'] = svg(charts.components(present['components'], inks, ['roll', 'pitch', 'yaw'], 'degrees'))
+        made['translation'] = svg(box_charts.components(present['components'], inks, ['x', 'y', 'z'], 'm'))
+        made['rotation'] = svg(box_charts.components(present['components'], inks, ['roll', 'pitch', 'yaw'], 'degrees'))
     return {**section, **made}

@@ -5,6 +5,7 @@
 
 #include "datasets/pose_rows.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/number.hpp"
 
 namespace pcrb {

@@ -9,6 +9,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
 #include "run/sqlite.hpp"

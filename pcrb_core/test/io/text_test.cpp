@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "support/expect_error.hpp"
 
 namespace pcrb {

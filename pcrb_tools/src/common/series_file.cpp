@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"

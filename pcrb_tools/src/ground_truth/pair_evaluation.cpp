@@ -7,6 +7,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/metric.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/pcd.hpp"

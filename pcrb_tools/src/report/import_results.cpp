@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"

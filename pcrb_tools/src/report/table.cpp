@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
 

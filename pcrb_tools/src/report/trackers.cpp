@@ -8,6 +8,7 @@
 #include "pcrb_core/datasets/pose_file.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"

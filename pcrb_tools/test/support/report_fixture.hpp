@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
-#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/run/results_store.hpp"
 #include "report/report_tool.hpp"
 #include "run/some_results.hpp"
