@@ -42,6 +42,17 @@ macro(pcrb_find_nanoflann)
   endif()
 endmacro()
 
+# From 3.9 on it has objects that keep their order.
+macro(pcrb_find_nlohmann_json)
+  find_package(nlohmann_json 3.9 QUIET)
+  if(NOT TARGET nlohmann_json::nlohmann_json)
+    pcrb_fetch_headers(pcrb_nlohmann_json nlohmann_json::nlohmann_json
+      d69f9deb6a75e2580465c6c4c5111b89c4dc2fa94e3a85fcd2ffcd9a143d9273
+      http://deb.debian.org/debian/pool/main/n/nlohmann-json3/nlohmann-json3_3.11.2.orig.tar.gz
+      http://archive.debian.org/debian/pool/main/n/nlohmann-json3/nlohmann-json3_3.11.2.orig.tar.gz)
+  endif()
+endmacro()
+
 # The decoder of LZF: LZF_INCLUDE_DIR and LZF_LIBRARY.
 macro(pcrb_find_lzf)
   find_path(LZF_INCLUDE_DIR lzf.h PATH_SUFFIXES liblzf)

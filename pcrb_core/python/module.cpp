@@ -43,10 +43,11 @@ void translate(std::exception_ptr thrown) {
 PYBIND11_MODULE(_pcrb, module) {
   namespace py = pybind11;
   const py::exception<pcrb::Error> base(module, "Error", PyExc_RuntimeError);
-  const py::exception<pcrb::InvalidFile> invalid_file(module, "InvalidFile", base);
-  const py::exception<pcrb::InvalidProblem> invalid_problem(module, "InvalidProblem", base);
-  const py::exception<pcrb::InvalidParameter> invalid_parameter(module, "InvalidParameter", base);
-  const py::exception<pcrb::StoreError> store_error(module, "StoreError", base);
+  const py::exception<pcrb::InvalidFile> invalid_file(module, "InvalidFile", base.ptr());
+  const py::exception<pcrb::InvalidProblem> invalid_problem(module, "InvalidProblem", base.ptr());
+  const py::exception<pcrb::InvalidParameter> invalid_parameter(module, "InvalidParameter",
+                                                                base.ptr());
+  const py::exception<pcrb::StoreError> store_error(module, "StoreError", base.ptr());
   py::register_exception_translator(&pcrb_python::translate);
   pcrb_python::defineClouds(module);
   pcrb_python::defineProblems(module);
