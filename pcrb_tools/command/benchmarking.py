@@ -20,7 +20,7 @@ MASTER = Option('master', 'ROS master: one of its own on a free port, or the one
 REPEAT = Option('repeat', 'number of trials, for what is not deterministic, each a run in trial_<i>', 'int', low=1, high=1000, default=1)
 SWEEP = Option('sweep', 'a run for each value of a parameter of the method', metavar='NAME=V1,V2,...')
 JSON = Option('json', 'print the result as JSON and nothing else', 'flag')
-OWN_SETTINGS = ('node', 'publish-ground-truth', 'shard', 'autostart', 'required', 'client', 'under-test', 'connect-limit', 'ready-limit', 'loop')
+OWN_SETTINGS = ('node', 'truth', 'shard', 'autostart', 'required', 'client', 'under-test', 'connect-limit', 'ready-limit', 'loop')
 CHOICES = {'restart': ('never', 'target', 'problem'), 'settle': ('first', 'nth', 'stable', 'deadline'),
            'order': ('finished', 'worst', 'best')}
 

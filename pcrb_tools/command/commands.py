@@ -64,7 +64,7 @@ COMMANDS = [
             'pcrb run --root ~/pcrb --run ~/runs/gicp --method gicp --subset 100'),
     Command('localize', 'run', 'benchmark a localization node as it is', Benchmark('localization.launch', {
         'bridge-parameters': {'kind': 'file', 'metavar': 'FILE'}}),
-            'pcrb localize --root ~/pcrb --run ~/runs/amcl3d --sequences planetary_map --node "my_package my_node.launch"'),
+            'pcrb localize --root ~/pcrb --run ~/runs/my_node --sequences planetary_map --node "my_package my_node.launch"'),
     Command('probe', 'run', 'find out how a localization node is benchmarked', Module(probe),
             'pcrb probe --node "my_package my_node.launch" --output my_node.yaml'),
     Command('paper', 'run', 'the experiments of the paper, seven methods, and a method of your own beside them', Tool('run_paper', changes={
@@ -87,9 +87,9 @@ COMMANDS = [
             'pcrb bag --root ~/pcrb --sequences eth/apartment --output apartment.bag'),
     Command('demo', 'help', f'from simulated logs to a report: {demo.COSTS}', Module(demo), 'pcrb demo --output ~/pcrb_demo'),
     Command('doctor', 'help', 'what this machine has and lacks', Module(doctor), 'pcrb doctor --root ~/pcrb'),
-    Command('recipes', 'help', 'commands for common tasks', Module(texts.Recipes), 'pcrb recipes'),
-    Command('completion', 'help', 'what a shell needs to complete pcrb', Module(texts.Completion),
+    Command('recipes', 'help', 'commands for common tasks', texts.Printer(texts.all_recipes), 'pcrb recipes'),
+    Command('completion', 'help', 'what a shell needs to complete pcrb', texts.Printer(texts.completion, [texts.SHELL]),
             'source <(pcrb completion bash)'),
-    Command('options', 'help', 'a table of all options of all commands', Module(texts.OptionsTable), 'pcrb options'),
+    Command('options', 'help', 'a table of all options of all commands', texts.Printer(texts.table), 'pcrb options'),
 ]
 texts.COMMANDS = COMMANDS

@@ -10,11 +10,12 @@ import demo
 import places
 import terminal
 from benchmarking import has_master
+from options import Option
 from words import WORDS
 
 OPTIONS = [
     dataclasses.replace(WORDS['root'], kind='path', metavar='DIR'),
-    dataclasses.replace(WORDS['output'], default='.'),
+    Option('folder', 'folder whose free disk space is looked at', 'path', 'DIR', default='.'),
 ]
 MODULES = ('rospy', 'rosbag', 'jinja2', 'matplotlib', 'numpy', 'yaml')
 PROGRAMS = ('roslaunch', 'rosrun', 'rosbag', 'rviz')
@@ -46,7 +47,7 @@ def machine(values):
     if memory:
         state = 'ok' if memory >= demo.MEMORY else 'note'
         yield state, 'memory', f'{memory / GIGABYTE:.1f} GB (the demo takes {demo.MEMORY / GIGABYTE:g} GB)'
-    folder = os.path.abspath(os.path.expanduser(values['output']))
+    folder = os.path.abspath(os.path.expanduser(values['folder']))
     while not os.path.isdir(folder):
         folder = os.path.dirname(folder)
     free = shutil.disk_usage(folder).free

@@ -10,6 +10,7 @@ import re
 from typing import Any, Optional, Sequence
 
 
+OLD_NAMES = {'threads': 'jobs', 'truth': 'publish-ground-truth'}
 PLACEHOLDERS = {'int': 'N', 'number': 'X', 'folder': 'DIR', 'file': 'FILE', 'path': 'PATH'}  # by kind
 
 
@@ -148,8 +149,9 @@ class Reader:
         return self.values
 
     def find(self, name, written):
-        if name in self.named:
-            return self.named[name]
+        for known in (name, OLD_NAMES.get(name)):
+            if known in self.named:
+                return self.named[known]
         marked = {f'--{known}': known for known in self.named}
         self.mistakes.append(f'unknown option {written}' + (did_you_mean(f'--{name}', marked) or ' (see --help)'))
         return None

@@ -14,7 +14,7 @@ from words import WORDS
 
 # What launch files and nodes call otherwise.
 RENAMES = {'problems': 'kind', 'node-launch': 'node', 'sequence': 'name', 'stamps-file': 'scans', 'map-file': 'map',
-           'client-command': 'client'}
+           'client-command': 'client', 'threads': 'jobs'}
 NUMBER_LIMITS = {'POSITIVE': (1e-9, None), 'NONNEGATIVE': (0, None)}
 
 
@@ -42,6 +42,8 @@ def program(name, package='pcrb_tools'):
 def shared(option):
     """An option under its common name, with the common help and limits where it is a shared word."""
     name = RENAMES.get(option.name, option.name)
+    if name == 'input' and not option.positional:  # tum_to_pcd's
+        name = 'messages'
     known = WORDS.get(name)
     if known is None:
         return dataclasses.replace(option, name=name)

@@ -5,16 +5,17 @@ from options import Option, bounds, words_of
 COMMANDS = []  # the table, which is complete once all modules are loaded
 
 
-class Recipes:
-    OPTIONS = []
+class Printer:
+    """A command that prints a text."""
 
-    @staticmethod
-    def check(values):
+    def __init__(self, text_of, options=()):
+        self.text_of, self.options = text_of, lambda: list(options)
+
+    def check(self, values):
         return []
 
-    @staticmethod
-    def run(name, options, values):
-        print(RECIPES, 'Localization nodes that pcrb knows (--node NAME):\n', recipes.listing(), sep='\n', end='')
+    def run(self, name, options, values):
+        print(self.text_of(values), end='')
         return 0
 
 
@@ -27,7 +28,7 @@ Benchmark one method on a part of the problems, and look at where it fails:
   pcrb replay --run ~/runs/gicp --order worst --rviz
 
 Benchmark a method of your own, from a shared library or as a client of any language:
-  pcrb run --root ~/pcrb --run ~/runs/mine --method mine --plugin libmine.so
+  pcrb run --root ~/pcrb --run ~/runs/mine --method mine --plugin libmine.so --parameters mine.yaml
   pcrb run --root ~/pcrb --run ~/runs/mine --client "python3 my_client.py"
 
 Benchmark a localization node as it is:
@@ -40,7 +41,7 @@ Compare it with the paper's methods:
   pcrb report ~/runs/mine ~/runs/paper/gicp --output ~/runs/report
 
 Keep it from getting worse, in continuous integration:
-  pcrb run --root ~/pcrb --run run --method mine --plugin libmine.so --subset 100
+  pcrb run --root ~/pcrb --run run --method mine --plugin libmine.so --parameters mine.yaml --subset 100
   pcrb compare reference run --max-increase 5
 
 Make problems of a log of your own, a bag or a folder of clouds and a text of poses:
@@ -54,20 +55,14 @@ Make problems of data of your own that lie in one frame (ROOT/DATA_SET/SEQUENCE/
 '''
 
 
-class Completion:
-    OPTIONS = [Option('shell', 'shell to complete in', metavar='SHELL', positional=True, required=True, choices=('bash', 'zsh'))]
-
-    @staticmethod
-    def check(values):
-        return []
-
-    @staticmethod
-    def run(name, options, values):
-        print(completion(values['shell']), end='')
-        return 0
+def all_recipes(values):
+    return '\n'.join([RECIPES, 'Localization nodes that pcrb knows (--node NAME):\n', recipes.listing()])
 
 
-def completion(shell):
+SHELL = Option('shell', 'shell to complete in', metavar='SHELL', positional=True, required=True, choices=('bash', 'zsh'))
+
+
+def completion(values):
     """A case for each command: its options; behind an option with choices these, else files."""
     names = sorted({command.name.split()[0] for command in COMMANDS})
     cases, choices = [], {}
@@ -81,7 +76,7 @@ def completion(shell):
     formats = [command.name.split()[1] for command in COMMANDS if ' ' in command.name]
     behind = [f'    {name}) COMPREPLY=($(compgen -W "{" ".join(sorted(words))}" -- "$word")); return ;;'
               for name, words in sorted(choices.items())]
-    return (ZSH if shell == 'zsh' else '') + BASH.format(names=' '.join(names), cases='\n'.join(cases), behind='\n'.join(behind), formats=' '.join(formats))
+    return (ZSH if values['shell'] == 'zsh' else '') + BASH.format(names=' '.join(names), cases='\n'.join(cases), behind='\n'.join(behind), formats=' '.join(formats))
 
 
 ZSH = '''\
@@ -110,20 +105,7 @@ complete -o filenames -F _pcrb pcrb
 '''
 
 
-class OptionsTable:
-    OPTIONS = []
-
-    @staticmethod
-    def check(values):
-        return []
-
-    @staticmethod
-    def run(name, options, values):
-        print(table(), end='')
-        return 0
-
-
-def table():
+def table(values):
     """docs/pcrb.md: commands, and options with the commands that have them. A word means one thing, so it has one row."""
     lines = [HEAD, '## Commands', '', '| command | what it does | example |', '|---|---|---|']
     rows = {}

@@ -44,7 +44,8 @@ WORDS = {option.name: option for option in (
     Option('yaw-only', 'turn scans without VIEWPOINT about the vertical axis only, which gives the tilt away', 'flag'),
     Option('max-rate', 'rate to thin scans to, in Hz; 0 = all scans', 'number', low=0),
     Option('poses', 'file of the poses', 'path', 'FILE'),
-    Option('truth', 'whether the true poses are shown', choices=('true', 'false'), default='true'),
+    Option('publish-ground-truth', 'whether the true poses are published; false: a node under test gets what localize gives it',
+           choices=('true', 'false'), default='true'),
     Option('rviz', 'show it in rviz', 'flag'),
     Option('title', 'title of the page'),
 )}
