@@ -236,7 +236,8 @@ test_workspace() {
 
 show_demo() {
   build_workspace
-  rm -rf "$root/demo"
+  # Its log stays, by which the folder is known for a demo's, and so does what somebody else put there.
+  rm -rf "$root"/demo/{logs,data,run,paper}
   hide_products
   set +u
   # shellcheck source=/dev/null

@@ -14,7 +14,7 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, rows, sessions, wait_until
+from pcrb_testing import Child, TestCase, executable, rows, sessions, wait_until
 
 NUMBERS = ('count', 'replied', 'failed', 'timed_out', 'rejected', 'skipped', 'median', 'q75', 'q95', 'mean', 'stddev')
 
@@ -103,6 +103,16 @@ class EvaluateTest(TestCase):
         self.assertEqual(self.report().properties('total local')['replied'], '2')
         for row in rows(self.path('run')):
             self.assertLess(row['error'], row['initial_misalignment'])
+
+    def test_takes_a_client_of_the_users_own_and_a_recipe(self):
+        self.assert_ends_well(self.rostest(sequences='hall', subset=2, client_command=executable('pcrb_tools', 'minimal_client.py')))
+        for row in rows(self.path('run')):
+            self.assertEqual(row['error'], row['initial_misalignment'], 'it replies the guess')
+        dump = self.start(Child(['roslaunch', '--dump-params', 'pcrb_launch', 'evaluate.test', f'root:={self.data.root}',
+                                 'node:=hdl_localization', 'max_median:=1']))
+        self.assert_ends_well(dump)
+        self.assertRegex(dump.output(), r'benchmark_server/under_test: hdl_localization')
+        self.assertRegex(dump.output(), r'localization_bridge/recipe:')
 
     def test_fails_soon_where_a_localization_node_does_not_start(self):
         self.assert_fails_with(self.rostest(node_launch='localization_standins no_such.launch'),

@@ -75,6 +75,17 @@ class PcrbCommandTest(TestCase):
             self.assertNotIn('\033', result.stdout)
         self.assertRegex(pcrb('--version').stdout, r'^pcrb \d+\.\d+\.\d+\n$')
 
+    def test_a_converter_takes_its_log_by_place_and_every_option_of_a_command_has_a_name_of_its_own(self):
+        logs = self.path('logs')
+        subprocess.run([executable('pcrb_tools', 'make_sample_logs'), '--output', logs], check=True, stdout=subprocess.DEVNULL)
+        bag = os.path.join(logs, 'tum', 'pioneer_slam.bag')
+        result = pcrb('convert', 'tum', bag, '--root', self.path('clouds'), '--messages', 'depth', '--threads', '2')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertGreater(len(os.listdir(self.path('clouds', 'tum', 'pioneer_slam'))), 10)
+        for name in COMMANDS:
+            names = re.findall(r'^ +(?:-\w, )?(--[a-z-]+|[A-Z][A-Z_]+)\b', pcrb(*name.split(), '--help').stdout, re.MULTILINE)
+            self.assertEqual(sorted(names), sorted(set(names)), name)
+
     def test_help_fits_a_terminal_of_80_columns_but_for_examples_to_copy(self):
         for name in ['', *COMMANDS]:
             for line in pcrb(*name.split(), '--help', COLUMNS='80').stdout.splitlines():

@@ -20,7 +20,8 @@ def check(values):
     output = os.path.expanduser(values['output'])
     if os.path.isfile(output):
         return [f'--output: found a file, {output}, expected a folder that is new or of an earlier demo']
-    if os.path.isdir(output) and set(os.listdir(output)) - {'CATKIN_IGNORE', 'logs', 'data', 'run', 'paper', 'prepare.log'}:
+    is_a_demo = os.path.isfile(os.path.join(output, 'prepare.log'))  # beside which runs of the user's own may lie
+    if os.path.isdir(output) and not is_a_demo and set(os.listdir(output)) - {'CATKIN_IGNORE'}:
         return [f'--output: found files of others in {output}, expected a folder that is new or of an earlier demo']
     return []
 

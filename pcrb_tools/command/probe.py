@@ -21,7 +21,7 @@ from words import WORDS
 
 OPTIONS = [
     dataclasses.replace(WORDS['node'], required=True),
-    Option('node-args', 'its arguments, name=value, separated by blanks'),
+    Option('node-args', 'arguments of the node\'s launch file, name=value, separated by blanks'),
     Option('map-topic', 'where the node takes its map', shown_default='found out'),
     Option('scan-topic', 'where the node takes its scans', shown_default='found out'),
     Option('pose-topic', 'where the node publishes its pose; tf: it does so on tf', shown_default='found out'),

@@ -30,7 +30,8 @@ WORDS = {option.name: option for option in (
     Option('bounds', 'bounds of the perturbations: measured in the published problem files, or of upstream\'s note',
            choices=('measured', 'note')),
     Option('map', 'file of a map in the frame of the sequence', 'path', 'FILE'),
-    Option('window', 'number of places in the sequence up to which clouds are paired', 'int', low=0),
+    Option('window', 'largest distance of a pair\'s clouds in places of the sequence; prepare and convert keep to it in sequences of over '
+           'twice as many clouds', 'int', low=0),
     Option('overlap-pairs', 'number of pairs of each problem file whose overlap is recomputed', 'int', low=0),
     Option('force', 'replace files that are there and were made by other means', 'flag'),
     Option('exclude', 'names of clouds to leave out', metavar='FILE', many=True),

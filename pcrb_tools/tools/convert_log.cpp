@@ -91,7 +91,7 @@ void addPreparation(CLI::App& app, Options& options) {
                  "for dataset.yaml: distance of points that overlap, m [0.2]")
       ->check(CLI::PositiveNumber);
   app.add_option("--voxel-leaf", options.parameters.voxel_leaf,
-                 "for dataset.yaml: edge of a map's voxels, m [0.2]")
+                 "for dataset.yaml: edge of the cells of voxel grids, of methods and maps, m [0.2]")
       ->check(CLI::PositiveNumber);
   app.add_option("--sensor", options.parameters.sensor, "for dataset.yaml: words for the report");
   app.add_option("--seed", options.prepare.seed, "seed that the problems are drawn with")

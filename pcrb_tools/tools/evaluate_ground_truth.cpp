@@ -34,7 +34,8 @@ int run(int argc, char** argv) {
       "--import", options.imports,
       "files of misalignments instead, <data set>=<path>/<sequence>.csv, or the published "
       "<data set>=<path>/<sequence>_gt_check.dat");
-  app.add_option("--jobs,--threads", options.threads)
+  app.add_option("--jobs,--threads", options.threads,
+                 "number of threads, which does not change the result")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_flag("--force", options.force, "replace files that this tool did not make");

@@ -31,7 +31,7 @@ void addOptions(CLI::App& app, pcrb_tools::PaperOptions& options) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--jobs", options.jobs,
-                 "benchmarks at the same time; latencies are undisturbed only with one")
+                 "benchmarks at the same time; they disturb each other's runtimes")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
 }

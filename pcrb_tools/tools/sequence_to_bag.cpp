@@ -47,8 +47,8 @@ int run(int argc, char** argv) {
   app.add_option("--exclude", options.sequence.excluded, "names of clouds that are no scans");
   bool no_truth = false;
   app.add_flag("--no-truth", no_truth,
-               "only what a node under test may see: the map, the initial pose with the first "
-               "scan, scans in their sensor's frame");
+               "only what a node under test may see: the map, then the initial pose, then the "
+               "scans in their sensor's frame");
   addFrames(app, options);
   app.add_option("--scans", options.scans,
                  "list to write of which scan has which timestamp, for score_poses");

@@ -28,9 +28,8 @@ const ParameterTable kReplayParameters{
     {"map_leaf", "0", "m", "edge of the growing map's voxels, 0 = the data set's"},
     {"map_points", "200000", "", "limit of the growing map, beyond which voxels double"},
     {"publish_ground_truth", "true", "",
-     "false: only what a node under test may see, the scan in its sensor's frame, the map file, "
-     "and "
-     "the initial pose with the first scan",
+     "false: only what a node under test may see, the map file, then the initial pose, then the "
+     "scans in their sensor's frame",
      "truth"},
     {"scan_frame", "pcrb_scan", "", "frame of the scan without ground truth"},
     {"base_frame", "base_link", "",

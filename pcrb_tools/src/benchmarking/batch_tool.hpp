@@ -65,7 +65,7 @@ struct PaperOptions {
   int subset = 0;            ///< number of problems per method, 0 = all
   int seed = 1;              ///< of the subset
   double time_limit = 30.0;  ///< s per problem
-  int jobs = 1;              ///< benchmarks at the same time; latencies are true with one only
+  int jobs = 1;              ///< benchmarks at the same time; they disturb each other's runtimes
   /// Writes the report of runs into a folder.
   std::function<void(const std::vector<std::string>& runs, const std::string& output)> write_report;
 };

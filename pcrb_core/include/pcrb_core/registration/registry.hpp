@@ -52,7 +52,7 @@ std::string pclOfMethods();
 /// namespace scope in a .cpp file. The class derives from pcrb::Registration and is constructed
 /// from a pcrb::ParameterReader&.
 #define PCRB_REGISTER_METHOD(name, Class)                                              \
-  [[maybe_unused]] static const bool PCRB_DETAIL_JOIN(pcrb_registered_, __LINE__) =    \
+  [[maybe_unused]] static const bool PCRB_DETAIL_JOIN(pcrb_registered_, __COUNTER__) = \
       ::pcrb::registerMethod(name, [](::pcrb::ParameterReader& reader) {               \
         return std::unique_ptr<::pcrb::Registration>(std::make_unique<Class>(reader)); \
       });
