@@ -1,10 +1,8 @@
 #pragma once
 
-#include <rosbag/bag.h>
-
-#include <memory>
 #include <string>
 
+#include "archives/atomic_bag.hpp"
 #include "pcrb_server/playback/scene.hpp"
 
 namespace pcrb_tools {
@@ -16,26 +14,15 @@ class SceneBag {
  public:
   /// @throws pcrb::InvalidFile  if the bag cannot be written.
   SceneBag(const std::string& path, bool compress);
-  ~SceneBag();
-  SceneBag(const SceneBag&) = delete;
-  SceneBag& operator=(const SceneBag&) = delete;
 
   /// At the scene's stamp.
   void write(const pcrb::Scene& scene);
 
   /// Checks that the disk has all of it, and gives the bag its name. Call once, last.
-  void commit();
+  void commit() { bag_.commit(); }
 
  private:
-  std::string path_;
-  std::string temporary_path_;
-  /// Leaves a bag undestroyed that cannot be closed, on a full disk: its destructor would throw and
-  /// end the process.
-  struct Closer {
-    void operator()(rosbag::Bag* bag) const;
-  };
-
-  std::unique_ptr<rosbag::Bag, Closer> bag_;
+  AtomicBag bag_;
 };
 
 }  // namespace pcrb_tools

@@ -8,10 +8,6 @@
 
 #include <array>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
-
-#include "pcrb_core/error.hpp"
 
 namespace pcrb_tools::simulation {
 namespace {
@@ -111,36 +107,11 @@ sensor_msgs::CameraInfo makeInfo(const DepthCamera& camera, const std_msgs::Head
 
 }  // namespace
 
-TumBag::TumBag(const std::string& output, const std::string& file, const DepthCamera& camera)
-    : camera_(camera) {
-  const std::filesystem::path path = std::filesystem::path(output) / file;
-  std::filesystem::create_directories(path.parent_path());
-  path_ = path.string();
-  temporary_path_ = (path.parent_path() / ("." + path.filename().string() + ".part")).string();
-  guarded([this] { bag_.open(temporary_path_, rosbag::bagmode::Write); });
-}
-
-TumBag::~TumBag() {
-  if (temporary_path_.empty()) return;
-  try {
-    bag_.close();
-  } catch (const rosbag::BagException&) {  // what could not be written is removed anyway
-  }
-  std::error_code ignored;
-  std::filesystem::remove(temporary_path_, ignored);
-}
-
-void TumBag::guarded(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const rosbag::BagException& error) {
-    throw pcrb::InvalidFile(path_, error.what());
-  }
-}
+TumBag::TumBag(const std::string& path, const DepthCamera& camera) : camera_(camera), bag_(path) {}
 
 template <typename Message>
 void TumBag::write(const std::string& topic, const Message& message) {
-  guarded([&] { bag_.write(topic, message.header.stamp, message); });
+  bag_.write(topic, message.header.stamp, message);
 }
 
 void TumBag::writeClouds(const RgbdFrame& frame, std::int64_t stamp_ns, int sequence_number) {
@@ -165,12 +136,6 @@ void TumBag::writeImages(const RgbdFrame& frame, std::int64_t stamp_ns, int sequ
   write("/camera/rgb/camera_info", info);
   write("/camera/rgb/image_color",
         makeImage(camera_, header, sensor_msgs::image_encodings::RGB8, frame.color.data(), 3));
-}
-
-void TumBag::commit() {
-  guarded([this] { bag_.close(); });
-  std::filesystem::rename(temporary_path_, path_);
-  temporary_path_.clear();
 }
 
 }  // namespace pcrb_tools::simulation

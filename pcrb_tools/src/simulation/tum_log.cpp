@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -127,7 +128,9 @@ void makeBag(const TumSequence& sequence, const Scene& scene, const LogOptions& 
              const std::string& output, const std::string& file) {
   const DepthCamera camera = makeKinect(options.size.tum_image_divisor);
   const int count = frameCount(sequence, options);
-  TumBag bag(output, file, camera);
+  const std::filesystem::path path = std::filesystem::path(output) / file;
+  std::filesystem::create_directories(path.parent_path());
+  TumBag bag(path.string(), camera);
   for (int first = 0; first < count; first += options.threads) {
     std::vector<RgbdFrame> frames(
         static_cast<std::size_t>(std::min(options.threads, count - first)));

@@ -7,9 +7,11 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <regex>
 
 #include "simulation/props.hpp"
+#include "support/expect_error.hpp"
 #include "support/sample_log_support.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -126,6 +128,17 @@ TEST_F(TumLogs, RawBagHasDepthInMetresColorAndIntrinsics) {
   EXPECT_EQ(infos[3].K[0], 525.0 / 8.0);
   EXPECT_EQ(infos[3].K[2], 320.0 / 8.0 - 0.5);
   EXPECT_EQ(infos[3].header.stamp, depths[3].header.stamp);
+}
+
+TEST_F(TumLogs, AFullDiskIsAnErrorThatNamesTheBag) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.file("tum"));
+  const std::string name = std::filesystem::path(kClouds).filename().string();
+  std::filesystem::create_symlink("/dev/full", folder.file("tum/." + name + ".tmp"));
+  pcrb_test::expectError<pcrb::InvalidFile>(
+      [&] { pcrb_test::makeLogs(planTumLogs(pcrb_test::tinyLogs()), folder.path()); }, name);
+  EXPECT_FALSE(std::filesystem::exists(folder.file(kClouds)));
 }
 
 TEST_F(TumLogs, TrackingIsSpelledAsPublishedWithADuplicateFlipsAndAGap) {
