@@ -11,21 +11,15 @@ namespace {
 const pcrb::NodeHelp kHelp{
     "registration_node",
     "Solves the benchmark's problems with a registration method: subscribes, aligns, submits.",
-    R"(Private parameters (default):
-  method (gicp)     icp, gicp, … (a wrong name lists them all), or the name of a parameter file
-                    that says which method it is for, as ndt_1m
-  plugin            shared library with methods of your own, loaded before the method is looked up
-  parameters        YAML file of the method's parameters
-                    (config/methods/<method>.yaml of the package pcrb_launch: the paper's)
-Sets itself:
-  in_effect         all parameters of the method, and the plugin's hash: a run goes on only under
-                    the same
+    R"(Sets the parameter ~in_effect itself: all parameters of the method, and the plugin's hash. A run
+goes on only under the same.
 
 Topics and services: problem, target, source, summary; ready, submit_pose; in the namespace /pcrb
-unless another is given. Ends when the server says that the run is over.)"};
+unless another is given. Ends when the server says that the run is over.)",
+    MethodChoice::parameters()};
 
 int solve(pcrb::ShutdownRequest& shutdown) {
-  pcrb::NodeParameters reader;
+  pcrb::NodeParameters reader(MethodChoice::parameters());
   const MethodChoice method(reader);
   reader.finish();
   method.announce();  // before the first `ready`, when the server reads it

@@ -18,12 +18,10 @@ namespace pcrb {
 /// not be ignored in silence.
 class NodeParameters {
  public:
-  /// Without a table: every read says its default.
-  NodeParameters();
-
   /// @param table  of all parameters that are read; a read of another is an error of the program.
   explicit NodeParameters(ParameterTable table);
 
+  /// Text; like a path and words it must be there and not be empty where the table requires it.
   std::string string(const std::string& name);
 
   /// An absolute path, or none: roslaunch starts nodes in another folder than the user's.
@@ -35,32 +33,12 @@ class NodeParameters {
   bool boolean(const std::string& name);
   int integer(const std::string& name, int min, int max);
 
-  /// A finite number; an integer parameter is accepted.
+  /// A finite number; an integer parameter is accepted. NaN where it has no default and is not
+  /// given.
   double number(const std::string& name, double min, double max);
 
   /// A list of words: a YAML list, or a string separated by commas or blanks.
   std::vector<std::string> words(const std::string& name);
-
-  std::string string(const std::string& name, const std::string& fallback);
-
-  /// Text that must be there and not be empty.
-  std::string requiredString(const std::string& name);
-
-  std::string path(const std::string& name, const std::string& fallback);
-
-  /// An absolute path that must be there.
-  std::string requiredPath(const std::string& name);
-
-  /// One of several words.
-  std::string choice(const std::string& name, const std::string& fallback,
-                     const std::vector<std::string>& choices);
-
-  bool boolean(const std::string& name, bool fallback);
-  int integer(const std::string& name, int fallback, int min, int max);
-
-  double number(const std::string& name, double fallback, double min, double max);
-
-  std::vector<std::string> words(const std::string& name, const std::string& fallback);
 
   /// Takes the parameters that a launch file loaded from a user's file below ~group, too. One that
   /// is also given outside the group, as something that is neither its default nor the same, is a
@@ -86,12 +64,11 @@ class NodeParameters {
  private:
   const NodeParameter& entryOf(const std::string& name) const;
   std::string fallbackOf(const std::string& name) const;
-  void requireValue(const std::string& name, bool is_empty, std::size_t mistakes);
+  void requireValue(const std::string& name, bool is_empty);
   bool find(const std::string& name, XmlRpc::XmlRpcValue& value);
   bool findFormer(const std::string& name, XmlRpc::XmlRpcValue& value);
   bool findInGroup(const std::string& name, XmlRpc::XmlRpcValue& value);
   void checkNames();
-  void checkPath(const std::string& name, const std::string& value);
   void mistake(const std::string& name, const XmlRpc::XmlRpcValue& found,
                const std::string& expected);
 

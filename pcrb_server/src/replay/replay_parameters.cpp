@@ -11,7 +11,7 @@ const ParameterTable kReplayParameters{
     {"", "", "", "What is shown"},
     {"root", "", "", "folder in the common layout; with run: instead of the one that the run used"},
     {"sequence", "", "", "sequence, or data_set/sequence"},
-    {"problems", "", "local|global",
+    {"problems", "", "|local|global",
      "kind of the sequence's problems, shown instead of its scans; of a run: of the problems"},
     {"problem", "", "", "official ids of problems, separated by blanks; empty = all"},
     {"run", "", "", "folder of a run, shown instead of a sequence"},
@@ -96,7 +96,7 @@ void readSequence(NodeParameters& reader, const std::string& root, const std::st
   sequence.base_frame = reader.string("base_frame");
   sequence.map_settle = reader.number("map_settle", 0.0, 1e3);
   sequence.initialpose_settle = reader.number("initialpose_settle", 0.0, 1e3);
-  parameters.stamps_file = reader.path("stamps_file", "");
+  parameters.stamps_file = reader.path("stamps_file");
 }
 
 void readProblems(NodeParameters& reader, const std::string& root, const std::string& word,
@@ -128,10 +128,10 @@ void readRun(NodeParameters& reader, const std::string& root, const std::string&
 ReplayParameters readReplayParameters() {
   NodeParameters reader(kReplayParameters);
   ReplayParameters parameters;
-  const std::string root = reader.path("root", "");
+  const std::string root = reader.path("root");
   const std::string sequence = reader.string("sequence");
-  parameters.run.run = reader.path("run", "");
-  const std::string kind = reader.choice("problems", "", {"", "local", "global"});
+  parameters.run.run = reader.path("run");
+  const std::string kind = reader.choice("problems");
   if (sequence.empty() == parameters.run.run.empty()) {
     reader.addMistake("~sequence or ~run: expected one of the two");
   } else if (!parameters.run.run.empty()) {

@@ -29,6 +29,18 @@ std::optional<std::string> textOf(XmlRpc::XmlRpcValue& value) {
   return std::nullopt;
 }
 
+/// Words of a list, or of a text parameter.
+std::optional<std::vector<std::string>> wordsOf(XmlRpc::XmlRpcValue& value) {
+  if (const auto text = textOf(value)) return splitWords(*text);
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) return std::nullopt;
+  std::vector<std::string> words;
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) return std::nullopt;
+    words.push_back(value[i]);
+  }
+  return words;
+}
+
 /// As a launch file would give it.
 std::string asWritten(XmlRpc::XmlRpcValue& value) {
   if (value.getType() == XmlRpc::XmlRpcValue::TypeBoolean) return bool(value) ? "true" : "false";
@@ -44,8 +56,6 @@ std::string range(T min, T max) {
 
 }  // namespace
 
-NodeParameters::NodeParameters() : node_("~") {}
-
 NodeParameters::NodeParameters(ParameterTable table) : table_(std::move(table)), node_("~") {}
 
 const NodeParameter& NodeParameters::entryOf(const std::string& name) const {
@@ -57,48 +67,6 @@ const NodeParameter& NodeParameters::entryOf(const std::string& name) const {
 std::string NodeParameters::fallbackOf(const std::string& name) const {
   const std::string& fallback = entryOf(name).fallback;
   return fallback == kRequired ? "" : fallback;
-}
-
-/// Notes a mistake for a value that must be given and is empty, unless reading it was one already.
-void NodeParameters::requireValue(const std::string& name, bool is_empty, std::size_t mistakes) {
-  const bool is_missed = is_empty && entryOf(name).fallback == kRequired;
-  if (is_missed && mistakes_.size() == mistakes) addMistake("~" + name + ": must be given");
-}
-
-std::string NodeParameters::string(const std::string& name) {
-  const std::size_t mistakes = mistakes_.size();
-  const std::string value = string(name, fallbackOf(name));
-  requireValue(name, value.empty(), mistakes);
-  return value;
-}
-
-std::string NodeParameters::path(const std::string& name) {
-  const std::string value = string(name);
-  checkPath(name, value);
-  return value;
-}
-
-std::string NodeParameters::choice(const std::string& name) {
-  return choice(name, fallbackOf(name), choicesOf(entryOf(name)));
-}
-
-bool NodeParameters::boolean(const std::string& name) {
-  return boolean(name, fallbackOf(name) == "true");
-}
-
-int NodeParameters::integer(const std::string& name, int min, int max) {
-  return integer(name, static_cast<int>(parseInt(fallbackOf(name)).value_or(min)), min, max);
-}
-
-double NodeParameters::number(const std::string& name, double min, double max) {
-  return number(name, parseDouble(fallbackOf(name)).value_or(min), min, max);
-}
-
-std::vector<std::string> NodeParameters::words(const std::string& name) {
-  const std::size_t mistakes = mistakes_.size();
-  const auto list = words(name, fallbackOf(name));
-  requireValue(name, list.empty(), mistakes);
-  return list;
 }
 
 bool NodeParameters::find(const std::string& name, XmlRpc::XmlRpcValue& value) {
@@ -140,60 +108,55 @@ void NodeParameters::mistake(const std::string& name, const XmlRpc::XmlRpcValue&
              describe(found) + ", expected " + expected);
 }
 
-std::string NodeParameters::string(const std::string& name, const std::string& fallback) {
+void NodeParameters::requireValue(const std::string& name, bool is_empty) {
+  if (is_empty && entryOf(name).fallback == kRequired) addMistake("~" + name + ": must be given");
+}
+
+std::string NodeParameters::string(const std::string& name) {
   XmlRpc::XmlRpcValue value;
-  if (!find(name, value)) return fallback;
-  if (const auto text = textOf(value)) return *text;
-  mistake(name, value, "text");
-  return fallback;
+  std::string text = fallbackOf(name);
+  if (find(name, value)) {
+    const auto given = textOf(value);
+    if (!given) {
+      mistake(name, value, "text");
+      return text;
+    }
+    text = *given;
+  }
+  requireValue(name, text.empty());
+  return text;
 }
 
-std::string NodeParameters::requiredString(const std::string& name) {
-  const std::size_t before = mistakes_.size();
-  const std::string value = string(name, "");
-  if (value.empty() && mistakes_.size() == before) addMistake("~" + name + ": must be given");
-  return value;
-}
-
-std::string NodeParameters::path(const std::string& name, const std::string& fallback) {
-  const std::string value = string(name, fallback);
-  checkPath(name, value);
-  return value;
-}
-
-std::string NodeParameters::requiredPath(const std::string& name) {
-  const std::string value = requiredString(name);
-  checkPath(name, value);
-  return value;
-}
-
-void NodeParameters::checkPath(const std::string& name, const std::string& value) {
+std::string NodeParameters::path(const std::string& name) {
+  const std::string value = string(name);
   const std::string mistake = relativePathMistake(name, value);
   if (!mistake.empty()) addMistake("~" + name + ": " + mistake);
+  return value;
 }
 
-std::string NodeParameters::choice(const std::string& name, const std::string& fallback,
-                                   const std::vector<std::string>& choices) {
-  const std::string value = string(name, fallback);
+std::string NodeParameters::choice(const std::string& name) {
+  const std::string value = string(name);
   std::string list;
-  for (const auto& choice : choices) {
+  for (const auto& choice : choicesOf(entryOf(name))) {
     if (choice == value) return value;
     list += (list.empty() ? "`" : " or `") + choice + '`';
   }
   mistake(name, value, list);
-  return fallback;
+  return fallbackOf(name);
 }
 
-bool NodeParameters::boolean(const std::string& name, bool fallback) {
+bool NodeParameters::boolean(const std::string& name) {
   XmlRpc::XmlRpcValue value;
+  const bool fallback = fallbackOf(name) == "true";
   if (!find(name, value)) return fallback;
   if (value.getType() == XmlRpc::XmlRpcValue::TypeBoolean) return value;
   mistake(name, value, "true or false");
   return fallback;
 }
 
-int NodeParameters::integer(const std::string& name, int fallback, int min, int max) {
+int NodeParameters::integer(const std::string& name, int min, int max) {
   XmlRpc::XmlRpcValue value;
+  const int fallback = static_cast<int>(parseInt(fallbackOf(name)).value_or(min));
   if (!find(name, value)) return fallback;
   if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) {
     const int number = value;
@@ -203,8 +166,9 @@ int NodeParameters::integer(const std::string& name, int fallback, int min, int 
   return fallback;
 }
 
-double NodeParameters::number(const std::string& name, double fallback, double min, double max) {
+double NodeParameters::number(const std::string& name, double min, double max) {
   XmlRpc::XmlRpcValue value;
+  const double fallback = parseDouble(fallbackOf(name)).value_or(NAN);
   if (!find(name, value)) return fallback;
   double number = NAN;
   if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) number = int(value);
@@ -214,20 +178,19 @@ double NodeParameters::number(const std::string& name, double fallback, double m
   return fallback;
 }
 
-std::vector<std::string> NodeParameters::words(const std::string& name,
-                                               const std::string& fallback) {
+std::vector<std::string> NodeParameters::words(const std::string& name) {
   XmlRpc::XmlRpcValue value;
-  if (!find(name, value)) return splitWords(fallback);
-  if (const auto text = textOf(value)) return splitWords(*text);
-  std::vector<std::string> words;
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeArray) {
-    for (int i = 0; i < value.size(); ++i) {
-      if (value[i].getType() == XmlRpc::XmlRpcValue::TypeString) words.push_back(value[i]);
+  std::vector<std::string> words = splitWords(fallbackOf(name));
+  if (find(name, value)) {
+    const auto given = wordsOf(value);
+    if (!given) {
+      mistake(name, value, "a list of words");
+      return words;
     }
-    if (static_cast<int>(words.size()) == value.size()) return words;
+    words = *given;
   }
-  mistake(name, value, "a list of words");
-  return splitWords(fallback);
+  requireValue(name, words.empty());
+  return words;
 }
 
 void NodeParameters::check(const std::function<void()>& statement) {

@@ -59,8 +59,8 @@ constexpr double kForever = 1e9;  // s
 
 void readFolders(NodeParameters& reader, ServerParameters& parameters) {
   std::string& root = parameters.configuration.selection.root;
-  root = reader.requiredPath("root");
-  parameters.run = reader.requiredPath("run");
+  root = reader.path("root");
+  parameters.run = reader.path("run");
   parameters.configuration.under_test = reader.string("under_test");
   const bool is_absolute = std::filesystem::path(root).is_absolute();
   if (is_absolute && !std::filesystem::is_directory(root)) {

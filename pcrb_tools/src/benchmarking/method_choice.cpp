@@ -37,17 +37,36 @@ std::string fileOfLibrary(const std::string& library) {
 
 /// A bare name is one that the loader looks for.
 std::string readPlugin(pcrb::NodeParameters& reader) {
-  const std::string plugin = reader.string("plugin", "");
-  return plugin.find('/') == std::string::npos ? plugin : reader.path("plugin", "");
+  const std::string plugin = reader.string("plugin");
+  return plugin.find('/') == std::string::npos ? plugin : reader.path("plugin");
+}
+
+std::string readFile(pcrb::NodeParameters& reader, const std::string& method) {
+  const std::string file = reader.path("parameters");
+  return file.empty() ? ros::package::getPath("pcrb_launch") + "/config/methods/" + method + ".yaml"
+                      : file;
 }
 
 }  // namespace
 
+const pcrb::ParameterTable& MethodChoice::parameters() {
+  static const pcrb::ParameterTable kTable{
+      {"method", "gicp", "",
+       "icp, gicp, … (a wrong name lists them all), or the name of a parameter file that says "
+       "which "
+       "method it is for, as ndt_1m"},
+      {"plugin", "", "",
+       "shared library with methods of your own, loaded before the method is looked up"},
+      {"parameters", "", "",
+       "YAML file of the method's parameters; empty: config/methods/<method>.yaml of the package "
+       "pcrb_launch, the paper's"}};
+  return kTable;
+}
+
 MethodChoice::MethodChoice(pcrb::NodeParameters& reader)
-    : method_(reader.string("method", "gicp")),
+    : method_(reader.string("method")),
       plugin_(readPlugin(reader)),
-      file_(reader.path("parameters", ros::package::getPath("pcrb_launch") + "/config/methods/" +
-                                          method_ + ".yaml")) {
+      file_(readFile(reader, method_)) {
   reader.allowOwnParameter(kInEffect);
   reader.check([this] {
     if (!plugin_.empty()) pcrb::loadRegistrationLibrary(plugin_);

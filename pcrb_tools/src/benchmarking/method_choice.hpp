@@ -14,6 +14,9 @@ namespace pcrb_tools {
 /// they are when it starts.
 class MethodChoice {
  public:
+  /// What a reader must have in its table.
+  static const pcrb::ParameterTable& parameters();
+
   /// Reads ~method, ~plugin and ~parameters, tries the method with the parameters of every data
   /// set, and adds what is wrong to the reader's mistakes.
   explicit MethodChoice(pcrb::NodeParameters& reader);

@@ -140,11 +140,11 @@ int runAsNode(int argc, char** argv, const ConverterHelp& help, const ConverterO
   const pcrb::NodeHelp node_help{
       request.data_set + "_to_pcd",
       help.description + " While it is published, to the same files as offline.",
-      "Private parameters (default):" + options.parameterHelp() +
-          "\n\nEnds when it is interrupted, or by ~idle_limit, with a report. Example:\n  " +
-          help.live_example};
+      "Ends when it is interrupted, or by ~idle_limit, with a report. Example:\n  " +
+          help.live_example,
+      options.parameters()};
   return pcrb::runNode(argc, argv, node_help, [&](pcrb::ShutdownRequest& shutdown) {
-    pcrb::NodeParameters parameters;
+    pcrb::NodeParameters parameters(options.parameters());
     options.read(parameters);
     parameters.finish();
     printReport(request, convertLive(request, live, shutdown));

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -20,7 +20,7 @@ std::string flagOf(std::string name) {
 /// Numbers of a parameter, e.g. "525 525 319.5 239.5"; empty where it is not given.
 std::vector<double> readNumbers(pcrb::NodeParameters& parameters, const std::string& name,
                                 std::size_t count) {
-  const auto words = parameters.words(name, "");
+  const auto words = parameters.words(name);
   std::vector<double> numbers;
   for (const auto& word : words) {
     const auto number = pcrb::parseDouble(word);
@@ -45,15 +45,14 @@ pcrb::Stamp toStampOfFlag(const std::string& flag, double seconds) {
 void ConverterOptions::addText(const std::string& name, std::string& value, const std::string& help,
                                Use use) {
   const bool is_required = use != Use::kOptional;
-  options_.push_back({name, is_required ? "" : value, help, use,
+  options_.push_back({name, is_required ? pcrb::kRequired : value, "", help, use,
                       [&value](CLI::App& app, const std::string& flag) {
                         CLI::Option* const option = app.add_option(flag, value);
                         if (!value.empty()) option->capture_default_str();
                         return option;
                       },
-                      [&value, is_required](pcrb::NodeParameters& parameters, const auto& key) {
-                        value = is_required ? parameters.requiredString(key)
-                                            : parameters.string(key, value);
+                      [&value](pcrb::NodeParameters& parameters, const std::string& key) {
+                        value = parameters.string(key);
                       }});
 }
 
@@ -61,19 +60,19 @@ void ConverterOptions::addPath(const std::string& name, std::string& value,
                                const std::string& help) {
   addText(name, value, help, Use::kRequired);
   options_.back().read = [&value](pcrb::NodeParameters& parameters, const std::string& key) {
-    value = parameters.requiredPath(key);
+    value = parameters.path(key);
   };
 }
 
 void ConverterOptions::addInteger(const std::string& name, int& value, int min, int max,
                                   const std::string& help, Use use) {
   options_.push_back(
-      {name, std::to_string(value), help, use,
+      {name, std::to_string(value), "", help, use,
        [&value, min, max](CLI::App& app, const std::string& flag) {
          return app.add_option(flag, value)->check(CLI::Range(min, max))->capture_default_str();
        },
        [&value, min, max](pcrb::NodeParameters& parameters, const std::string& key) {
-         value = parameters.integer(key, value, min, max);
+         value = parameters.integer(key, min, max);
        }});
 }
 
@@ -83,7 +82,7 @@ void ConverterOptions::addNumber(const std::string& name, double& value, const s
   addNumber(
       name, [&value](double number) { value = number; }, help);
   Option& option = options_.back();
-  option.default_text = default_text;
+  option.fallback = default_text;
   option.use = use;
   const AddFlag add_flag = option.add_flag;
   option.add_flag = [add_flag, default_text](CLI::App& app, const std::string& flag) {
@@ -93,14 +92,13 @@ void ConverterOptions::addNumber(const std::string& name, double& value, const s
 
 void ConverterOptions::addNumber(const std::string& name, const std::function<void(double)>& set,
                                  const std::string& help) {
-  options_.push_back({name, "", help, Use::kOptional,
+  options_.push_back({name, "", "", help, Use::kOptional,
                       [set](CLI::App& app, const std::string& flag) {
                         return app.add_option_function<double>(flag, set)->check(
                             CLI::Range(0.0, kMaxNumber));
                       },
                       [set](pcrb::NodeParameters& parameters, const std::string& key) {
-                        constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
-                        const double number = parameters.number(key, kAbsent, 0.0, kMaxNumber);
+                        const double number = parameters.number(key, 0.0, kMaxNumber);
                         if (!std::isnan(number)) set(number);
                       }});
 }
@@ -108,7 +106,7 @@ void ConverterOptions::addNumber(const std::string& name, const std::function<vo
 void ConverterOptions::addSeconds(const std::string& name, pcrb::Stamp& value,
                                   const std::string& help) {
   const double fallback = static_cast<double>(value) / 1e9;
-  options_.push_back({name, pcrb::formatShortest(fallback), help, Use::kOptional,
+  options_.push_back({name, pcrb::formatShortest(fallback), "s", help, Use::kOptional,
                       [&value, fallback](CLI::App& app, const std::string& flag) {
                         const auto set = [&value, flag](double s) {
                           value = toStampOfFlag(flag, s);
@@ -116,8 +114,8 @@ void ConverterOptions::addSeconds(const std::string& name, pcrb::Stamp& value,
                         return app.add_option_function<double>(flag, set)->default_str(
                             pcrb::formatShortest(fallback));
                       },
-                      [&value, fallback](pcrb::NodeParameters& parameters, const std::string& key) {
-                        value = pcrb::toStamp(parameters.number(key, fallback, 0.0, kMaxNumber));
+                      [&value](pcrb::NodeParameters& parameters, const std::string& key) {
+                        value = pcrb::toStamp(parameters.number(key, 0.0, kMaxNumber));
                       }});
 }
 
@@ -125,7 +123,7 @@ void ConverterOptions::addNumbers(const std::string& name, int count,
                                   const std::function<void(const std::vector<double>&)>& set,
                                   const std::string& help) {
   options_.push_back(
-      {name, "", help, Use::kOptional,
+      {name, "", "", help, Use::kOptional,
        [set, count](CLI::App& app, const std::string& flag) {
          return app.add_option_function<std::vector<double>>(flag, set)->expected(count);
        },
@@ -137,12 +135,12 @@ void ConverterOptions::addNumbers(const std::string& name, int count,
 
 void ConverterOptions::addSwitch(const std::string& name, const std::function<void()>& turn_on,
                                  const std::string& help) {
-  options_.push_back({name, "false", help, Use::kOptional,
+  options_.push_back({name, "false", "", help, Use::kOptional,
                       [turn_on](CLI::App& app, const std::string& flag) {
                         return app.add_flag_function(flag, [turn_on](auto) { turn_on(); });
                       },
                       [turn_on](pcrb::NodeParameters& parameters, const std::string& key) {
-                        if (parameters.boolean(key, false)) turn_on();
+                        if (parameters.boolean(key)) turn_on();
                       }});
 }
 
@@ -151,16 +149,16 @@ void ConverterOptions::addChoice(const std::string& name,
                                  const std::vector<std::string>& choices,
                                  const std::vector<std::string>& live_choices,
                                  const std::string& help) {
-  options_.push_back(
-      {name, live_choices.front(), help, Use::kOptional,
-       [set, choices](CLI::App& app, const std::string& flag) {
-         return app.add_option_function<std::string>(flag, set)
-             ->check(CLI::IsMember(choices))
-             ->default_str(choices.front());
-       },
-       [set, live_choices](pcrb::NodeParameters& parameters, const std::string& key) {
-         set(parameters.choice(key, live_choices.front(), live_choices));
-       }});
+  options_.push_back({name, live_choices.front(), pcrb::joined(live_choices, "|"), help,
+                      Use::kOptional,
+                      [set, choices](CLI::App& app, const std::string& flag) {
+                        return app.add_option_function<std::string>(flag, set)
+                            ->check(CLI::IsMember(choices))
+                            ->default_str(choices.front());
+                      },
+                      [set](pcrb::NodeParameters& parameters, const std::string& key) {
+                        set(parameters.choice(key));
+                      }});
 }
 
 void ConverterOptions::addFlags(CLI::App& app) const {
@@ -171,21 +169,16 @@ void ConverterOptions::addFlags(CLI::App& app) const {
   }
 }
 
-void ConverterOptions::read(pcrb::NodeParameters& parameters) const {
-  for (const Option& option : options_) option.read(parameters, option.name);
+pcrb::ParameterTable ConverterOptions::parameters() const {
+  pcrb::ParameterTable table;
+  for (const Option& option : options_) {
+    table.push_back({option.name, option.fallback, option.unit, option.help});
+  }
+  return table;
 }
 
-std::string ConverterOptions::parameterHelp() const {
-  constexpr std::size_t kColumn = 20;
-  std::string text;
-  for (const Option& option : options_) {
-    const bool is_required = option.use == Use::kRequired || option.use == Use::kRequiredLive;
-    std::string name = option.name;
-    if (!option.default_text.empty()) name += " (" + option.default_text + ")";
-    if (name.size() < kColumn) name.resize(kColumn, ' ');
-    text += "\n  " + name + "  " + option.help + (is_required ? " (required)" : "");
-  }
-  return text;
+void ConverterOptions::read(pcrb::NodeParameters& parameters) const {
+  for (const Option& option : options_) option.read(parameters, option.name);
 }
 
 }  // namespace pcrb_tools

@@ -58,18 +58,19 @@ class ConverterOptions {
   /// Adds the flags to a command line.
   void addFlags(CLI::App& app) const;
 
-  /// Reads the node's parameters; mistakes are kept by the reader.
-  void read(pcrb::NodeParameters& parameters) const;
+  /// The node's parameters.
+  pcrb::ParameterTable parameters() const;
 
-  /// A line of help for each parameter.
-  std::string parameterHelp() const;
+  /// Reads them; mistakes are kept by the reader.
+  void read(pcrb::NodeParameters& parameters) const;
 
  private:
   using AddFlag = std::function<CLI::Option*(CLI::App&, const std::string& flag)>;
   using Read = std::function<void(pcrb::NodeParameters&, const std::string& name)>;
   struct Option {
     std::string name;
-    std::string default_text;  ///< of the parameter; empty = none
+    std::string fallback;  ///< of the parameter, as in its table
+    std::string unit;      ///< likewise
     std::string help;
     Use use;
     AddFlag add_flag;
