@@ -6,6 +6,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 
@@ -17,177 +18,158 @@ using RunText = std::optional<std::string>;
   throw InvalidParameter("found `" + text + "`, expected " + expected);
 }
 
-std::string formatRunFlag(bool value) { return value ? "true" : "false"; }
+// What the table says of a value of each type, and a value of what it says.
 
-bool parseRunFlag(const std::string& text) {
+RunText runText(const std::string& value) { return value; }
+void readRunText(const std::string& text, std::string& value) { value = text; }
+
+RunText runText(bool value) { return value ? "true" : "false"; }
+void readRunText(const std::string& text, bool& value) {
   if (text != "true" && text != "false") refuseRunText(text, "true or false");
-  return text == "true";
+  value = text == "true";
 }
 
-std::uint64_t parseRunCount(const std::string& text) {
+RunText runText(std::uint64_t value) { return std::to_string(value); }
+void readRunText(const std::string& text, std::uint64_t& value) {
   const auto count = parseUnsigned(text);
   if (!count) refuseRunText(text, "a whole number");
-  return *count;
+  value = *count;
 }
 
-double parseRunReal(const std::string& text) {
+RunText runText(double value) { return formatShortest(value); }
+void readRunText(const std::string& text, double& value) {
   const auto number = parseDouble(text);
   if (!number) refuseRunText(text, "a number");
-  return *number;
+  value = *number;
 }
 
-std::vector<std::string> splitRunWords(const std::string& text) {
+RunText runText(const std::vector<std::string>& words) { return joined(words, " "); }
+void readRunText(const std::string& text, std::vector<std::string>& words) {
   std::istringstream stream(text);
+  words.assign(std::istream_iterator<std::string>(stream), {});
+}
+
+RunText runText(const std::vector<Kind>& kinds) {
   std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
+  for (const Kind kind : kinds) words.emplace_back(toString(kind));
+  return runText(words);
+}
+void readRunText(const std::string& text, std::vector<Kind>& kinds) {
+  std::vector<std::string> words;
+  readRunText(text, words);
+  kinds.clear();
+  for (const std::string& word : words) kinds.push_back(kindFromString(word));
 }
 
-template <typename List, typename Format>
-std::string joinRunWords(const List& list, const Format& format) {
-  std::string text;
-  for (const auto& word : list) text += (text.empty() ? "" : " ") + std::string(format(word));
-  return text;
+RunText runText(const ShardNumber& shard) { return toString(shard); }
+void readRunText(const std::string& text, ShardNumber& shard) { shard = shardFromString(text); }
+
+RunText runText(PresentationKind kind) { return toString(kind); }
+void readRunText(const std::string& text, PresentationKind& kind) {
+  kind = presentationFromString(text);
 }
 
-RunText runTextUnlessEmpty(const std::string& text) {
-  return text.empty() ? std::nullopt : RunText(text);
+RunText runText(ResultsTime time) { return time == ResultsTime::kLive ? "live" : "end"; }
+void readRunText(const std::string& text, ResultsTime& time) {
+  if (text != "live") refuseRunText(text, "live");  // the other one is not written
+  time = ResultsTime::kLive;
 }
 
-Handshake parseRunHandshake(const std::string& text) {
+RunText runText(Handshake handshake) { return handshake == Handshake::kReady ? "ready" : "none"; }
+void readRunText(const std::string& text, Handshake& handshake) {
   if (text != "ready" && text != "none") refuseRunText(text, "ready or none");
-  return text == "ready" ? Handshake::kReady : Handshake::kNone;
+  handshake = text == "ready" ? Handshake::kReady : Handshake::kNone;
 }
 
-std::vector<Kind> parseRunKinds(const std::string& text) {
-  std::vector<Kind> kinds;
-  for (const std::string& word : splitRunWords(text)) kinds.push_back(kindFromString(word));
-  return kinds;
+RunText runText(const Secret& secret) { return secret.toHex(); }
+void readRunText(const std::string& text, std::optional<Secret>& secret) {
+  secret = Secret::fromHex(text);
 }
+
+template <typename T>
+RunText runText(const std::optional<T>& value) {
+  return value ? runText(*value) : std::nullopt;
+}
+template <typename T>
+void readRunText(const std::string& text, std::optional<T>& value) {
+  readRunText(text, value.emplace());
+}
+
+enum class Written { kAlways, kUnlessDefault };
+
+/// @param member  of a RunInfo, a reference to it.
+template <typename Member>
+RunTableRow runTableRow(const char* key, RunKeyRole role, bool is_shown, Member member,
+                        Written written = Written::kAlways) {
+  return {key, role, is_shown,
+          [member, written](const RunInfo& info) {
+            static const RunInfo kUntouched;
+            const RunText text = runText(member(info));
+            const bool is_default = text == runText(member(kUntouched));
+            return is_default && written == Written::kUnlessDefault ? RunText() : text;
+          },
+          [member](RunInfo& info, const std::string& text) { readRunText(text, member(info)); }};
+}
+
+/// A member of a RunInfo by its pointer, and of what lies in it.
+constexpr auto ofRun = [](auto member) {
+  return [member](auto& info) -> auto& { return info.*member; };
+};
+constexpr auto ofConfiguration = [](auto member) {
+  return [member](auto& info) -> auto& { return info.configuration.*member; };
+};
+constexpr auto ofSelection = [](auto member) {
+  return [member](auto& info) -> auto& { return info.configuration.selection.*member; };
+};
+constexpr auto ofPresentation = [](auto member) {
+  return [member](auto& info) -> auto& { return info.configuration.presentation.*member; };
+};
+
+using Role = RunKeyRole;
 
 const RunTableRow kRunTableRows[] = {
-    {"under_test", RunKeyRole::kConfiguration, false,
-     [](const RunInfo& i) { return RunText(i.configuration.under_test); },
-     [](RunInfo& i, const std::string& text) { i.configuration.under_test = text; }},
-    {"sequences", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) {
-       return RunText(joinRunWords(i.configuration.selection.sequences,
-                                   [](const std::string& word) { return word; }));
-     },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.selection.sequences = splitRunWords(text);
-     }},
-    {"kinds", RunKeyRole::kConfiguration, false,
-     [](const RunInfo& i) {
-       return RunText(
-           joinRunWords(i.configuration.selection.kinds, [](Kind kind) { return toString(kind); }));
-     },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.selection.kinds = parseRunKinds(text);
-     }},
-    {"subset", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) { return RunText(std::to_string(i.configuration.selection.subset)); },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.selection.subset = parseRunCount(text);
-     }},
-    {"seed", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) { return RunText(std::to_string(i.configuration.selection.seed)); },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.selection.seed = parseRunCount(text);
-     }},
-    {"shard", RunKeyRole::kShard, true,
-     [](const RunInfo& i) { return RunText(toString(i.configuration.selection.shard)); },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.selection.shard = shardFromString(text);
-     }},
-    {"root", RunKeyRole::kOwn, false,
-     [](const RunInfo& i) { return runTextUnlessEmpty(i.configuration.selection.root); },
-     [](RunInfo& i, const std::string& text) { i.configuration.selection.root = text; }},
-    {"presentation", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) { return RunText(toString(i.configuration.presentation.kind)); },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.presentation.kind = presentationFromString(text);
-     }},
-    {"upright", RunKeyRole::kConfiguration, true,  // what yaw_only was called first
-     [](const RunInfo& i) { return RunText(formatRunFlag(i.configuration.presentation.yaw_only)); },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.presentation.yaw_only = parseRunFlag(text);
-     }},
-    {"audit", RunKeyRole::kConfiguration, true,  // runs without it were made before there was one
-     [](const RunInfo& i) {
-       return i.configuration.presentation.audit ? RunText("true") : std::nullopt;
-     },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.presentation.audit = parseRunFlag(text);
-     }},
-    {"results", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) {
-       return i.configuration.results == ResultsTime::kLive ? RunText("live") : std::nullopt;
-     },
-     [](RunInfo& i, const std::string& text) {
-       if (text != "live") refuseRunText(text, "live");
-       i.configuration.results = ResultsTime::kLive;
-     }},
-    {"foreign_replies", RunKeyRole::kOwn, true,
-     [](const RunInfo& i) {
-       return i.foreign_replies > 0 ? RunText(std::to_string(i.foreign_replies)) : std::nullopt;
-     },
-     [](RunInfo& i, const std::string& text) { i.foreign_replies = parseRunCount(text); }},
-    {"time_limit", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) { return RunText(formatShortest(i.configuration.time_limit)); },
-     [](RunInfo& i, const std::string& text) { i.configuration.time_limit = parseRunReal(text); }},
-    {"handshake", RunKeyRole::kConfiguration, false,
-     [](const RunInfo& i) {
-       return RunText(i.configuration.handshake == Handshake::kReady ? "ready" : "none");
-     },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.handshake = parseRunHandshake(text);
-     }},
-    {"global_guess", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) { return RunText(formatRunFlag(i.configuration.global_guess)); },
-     [](RunInfo& i, const std::string& text) {
-       i.configuration.global_guess = parseRunFlag(text);
-     }},
-    {"debug", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) { return RunText(formatRunFlag(i.configuration.debug)); },
-     [](RunInfo& i, const std::string& text) { i.configuration.debug = parseRunFlag(text); }},
-    {"metric_version", RunKeyRole::kConfiguration, true,
-     [](const RunInfo& i) { return RunText(i.metric_version); },
-     [](RunInfo& i, const std::string& text) { i.metric_version = text; }},
-    {"code_version", RunKeyRole::kRecorded, true,
-     [](const RunInfo& i) { return runTextUnlessEmpty(i.code_version); },
-     [](RunInfo& i, const std::string& text) { i.code_version = text; }},
-    {"secret", RunKeyRole::kOwn, false,
-     [](const RunInfo& i) { return i.secret ? RunText(i.secret->toHex()) : std::nullopt; },
-     [](RunInfo& i, const std::string& text) { i.secret = Secret::fromHex(text); }},
-    {"created", RunKeyRole::kOwn, false,
-     [](const RunInfo& i) {
-       return i.created ? RunText(formatShortest(*i.created)) : std::nullopt;
-     },
-     [](RunInfo& i, const std::string& text) { i.created = parseRunReal(text); }},
-    {"problems", RunKeyRole::kOwn, false,
-     [](const RunInfo& i) {
-       return i.problems ? RunText(std::to_string(*i.problems)) : std::nullopt;
-     },
-     [](RunInfo& i, const std::string& text) { i.problems = parseRunCount(text); }},
-    {"client", RunKeyRole::kClient, false, [](const RunInfo& i) { return i.client; },
-     [](RunInfo& i, const std::string& text) { i.client = text; }},
-    {"client_parameters", RunKeyRole::kClient, false,
-     [](const RunInfo& i) { return i.client_parameters; },
-     [](RunInfo& i, const std::string& text) { i.client_parameters = text; }},
-    {"node_cpu_time_s", RunKeyRole::kOwn, false,
-     [](const RunInfo& i) {
-       return i.node_cpu_time > 0.0 ? RunText(formatShortest(i.node_cpu_time)) : std::nullopt;
-     },
-     [](RunInfo& i, const std::string& text) { i.node_cpu_time = parseRunReal(text); }},
-    {"node_peak_memory_bytes", RunKeyRole::kOwn, false,
-     [](const RunInfo& i) {
-       return i.node_peak_memory > 0 ? RunText(std::to_string(i.node_peak_memory)) : std::nullopt;
-     },
-     [](RunInfo& i, const std::string& text) { i.node_peak_memory = parseRunCount(text); }},
-    {"merged_from", RunKeyRole::kRecorded, false,
-     [](const RunInfo& i) { return runTextUnlessEmpty(i.merged_from); },
-     [](RunInfo& i, const std::string& text) { i.merged_from = text; }},
+    runTableRow("under_test", Role::kConfiguration, false,
+                ofConfiguration(&RunConfiguration::under_test)),
+    runTableRow("sequences", Role::kConfiguration, true, ofSelection(&ProblemSelection::sequences)),
+    runTableRow("kinds", Role::kConfiguration, false, ofSelection(&ProblemSelection::kinds)),
+    runTableRow("subset", Role::kConfiguration, true, ofSelection(&ProblemSelection::subset)),
+    runTableRow("seed", Role::kConfiguration, true, ofSelection(&ProblemSelection::seed)),
+    runTableRow("shard", Role::kShard, true, ofSelection(&ProblemSelection::shard)),
+    runTableRow("root", Role::kOwn, false, ofSelection(&ProblemSelection::root),
+                Written::kUnlessDefault),
+    runTableRow("presentation", Role::kConfiguration, true,
+                ofPresentation(&PresentationOptions::kind)),
+    // What yaw_only was called first.
+    runTableRow("upright", Role::kConfiguration, true,
+                ofPresentation(&PresentationOptions::yaw_only)),
+    // Runs without it were made before there was one.
+    runTableRow("audit", Role::kConfiguration, true, ofPresentation(&PresentationOptions::audit),
+                Written::kUnlessDefault),
+    runTableRow("results", Role::kConfiguration, true, ofConfiguration(&RunConfiguration::results),
+                Written::kUnlessDefault),
+    runTableRow("foreign_replies", Role::kOwn, true, ofRun(&RunInfo::foreign_replies),
+                Written::kUnlessDefault),
+    runTableRow("time_limit", Role::kConfiguration, true,
+                ofConfiguration(&RunConfiguration::time_limit)),
+    runTableRow("handshake", Role::kConfiguration, false,
+                ofConfiguration(&RunConfiguration::handshake)),
+    runTableRow("global_guess", Role::kConfiguration, true,
+                ofConfiguration(&RunConfiguration::global_guess)),
+    runTableRow("debug", Role::kConfiguration, true, ofConfiguration(&RunConfiguration::debug)),
+    runTableRow("metric_version", Role::kConfiguration, true, ofRun(&RunInfo::metric_version)),
+    runTableRow("code_version", Role::kRecorded, true, ofRun(&RunInfo::code_version),
+                Written::kUnlessDefault),
+    runTableRow("secret", Role::kOwn, false, ofRun(&RunInfo::secret)),
+    runTableRow("created", Role::kOwn, false, ofRun(&RunInfo::created)),
+    runTableRow("problems", Role::kOwn, false, ofRun(&RunInfo::problems)),
+    runTableRow("client", Role::kClient, false, ofRun(&RunInfo::client)),
+    runTableRow("client_parameters", Role::kClient, false, ofRun(&RunInfo::client_parameters)),
+    runTableRow("node_cpu_time_s", Role::kOwn, false, ofRun(&RunInfo::node_cpu_time),
+                Written::kUnlessDefault),
+    runTableRow("node_peak_memory_bytes", Role::kOwn, false, ofRun(&RunInfo::node_peak_memory),
+                Written::kUnlessDefault),
+    runTableRow("merged_from", Role::kRecorded, false, ofRun(&RunInfo::merged_from),
+                Written::kUnlessDefault),
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -21,9 +21,10 @@ enum class RunKeyRole {
 struct RunTableRow {
   const char* key;
   RunKeyRole role;
-  bool is_shown;                                        ///< in reports
-  std::optional<std::string> (*write)(const RunInfo&);  ///< nothing where the value is unknown
-  void (*read)(RunInfo&, const std::string&);           ///< @throws InvalidParameter
+  bool is_shown;  ///< in reports
+  /// Nothing where the value is unknown, or a default that is not written.
+  std::function<std::optional<std::string>(const RunInfo&)> write;
+  std::function<void(RunInfo&, const std::string&)> read;  ///< @throws InvalidParameter
 };
 
 /// Keys that are a word, a blank and a name each, one for each name.

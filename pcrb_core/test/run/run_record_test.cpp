@@ -101,6 +101,8 @@ TEST_F(RunRecordTest, GoesOnUnderTheSameConfigurationAlone) {
   const RunConfiguration same = configuration_;
   configuration_.time_limit = 5.0;
   configuration_.selection.subset = 3;
+  configuration_.presentation.yaw_only = true;
+  expectRefusal("/alpha", "", "\n  yaw_only: the run has `false`, asked for `true`");
   expectRefusal("/alpha", "", "\n  time_limit: the run has `10`, asked for `5`");
   expectRefusal("/alpha", "", "\n  subset: the run has `0`, asked for `3`");
   configuration_ = same;
