@@ -82,9 +82,10 @@ bool namesSequence(const std::string& word, const SequenceName& name) {
          word == name.data_set + "/" + name.sequence;
 }
 
-std::vector<std::size_t> selectSequences(const std::vector<SequenceName>& known,
-                                         const std::vector<std::string>& words,
-                                         const std::string& place) {
+std::vector<std::size_t> selectNamed(const std::vector<SequenceName>& known,
+                                     const std::vector<std::string>& words,
+                                     const std::function<void(const std::string& word)>& refuse) {
+  if (words.empty()) return selectNamed(known, {"all"}, [](const std::string&) {});
   std::set<std::size_t> selected;
   for (const std::string& word : words) {
     bool is_used = false;
@@ -93,12 +94,20 @@ std::vector<std::size_t> selectSequences(const std::vector<SequenceName>& known,
       selected.insert(i);
       is_used = true;
     }
-    if (is_used) continue;
+    if (!is_used) refuse(word);
+  }
+  return {selected.begin(), selected.end()};
+}
+
+std::vector<std::size_t> selectSequences(const std::vector<SequenceName>& known,
+                                         const std::vector<std::string>& words,
+                                         const std::string& place) {
+  if (words.empty()) return {};
+  return selectNamed(known, words, [&](const std::string& word) {
     throw InvalidParameter("sequences: found `" + word +
                            "`, expected `all`, a sequence, a data set or data_set/sequence " +
                            place + ":" + listOf(known));
-  }
-  return {selected.begin(), selected.end()};
+  });
 }
 
 std::vector<SequenceFiles> selectProblemFiles(const std::string& root,

@@ -193,10 +193,6 @@ class SourceReader {
   std::set<std::string> files_;
 };
 
-bool isNamed(const std::string& word, const Source& source) {
-  return pcrb::namesSequence(word, {source.data_set, source.sequence});
-}
-
 }  // namespace
 
 std::vector<Source> readSources(const std::string& path) { return SourceReader(path).read(); }
@@ -206,25 +202,19 @@ std::vector<Source> selectSources(const std::string& list, SourceSet set,
   std::vector<Source> all = readSources(list);
   all.erase(std::remove_if(all.begin(), all.end(), [set](const Source& s) { return !s.isOf(set); }),
             all.end());
-  for (const std::string& word : words) {
-    if (std::none_of(all.begin(), all.end(), [&](const Source& s) { return isNamed(word, s); })) {
-      throw pcrb::InvalidParameter(list + ": found no source of '" + word +
-                                   "', expected a sequence, <data set> or <data set>/<sequence>");
-    }
-  }
-  const auto is_wanted = [&words](const Source& source) {
-    return words.empty() || std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-             return isNamed(word, source);
-           });
-  };
+  std::vector<pcrb::SequenceName> names;
+  for (const Source& source : all) names.push_back({source.data_set, source.sequence});
+  const auto wanted = pcrb::selectNamed(names, words, [&](const std::string& word) {
+    throw pcrb::InvalidParameter(list + ": found no source of '" + word +
+                                 "', expected a sequence, <data set> or <data set>/<sequence>");
+  });
   std::set<std::string> needed;
-  for (const Source& source : all) {
-    if (is_wanted(source)) needed.insert(source.needs);
-  }
+  for (const std::size_t i : wanted) needed.insert(all[i].needs);
   std::vector<Source> selected;
-  for (const Source& source : all) {
-    const bool is_needed = source.kind != SourceKind::kProblems && needed.count(source.name()) > 0;
-    if (is_needed || is_wanted(source)) selected.push_back(source);
+  for (std::size_t i = 0; i != all.size(); ++i) {
+    const bool is_needed = all[i].kind != SourceKind::kProblems && needed.count(all[i].name()) > 0;
+    if (is_needed || std::binary_search(wanted.begin(), wanted.end(), i))
+      selected.push_back(all[i]);
   }
   return selected;
 }

@@ -22,27 +22,21 @@ namespace {
 namespace fs = std::filesystem;
 using pcrb::SequenceFiles;
 
-bool isNamed(const SequenceFiles& files, const std::string& name) {
-  return name == "all" || name == files.data_set || name == files.sequence ||
-         name == files.data_set + "/" + files.sequence;
-}
-
 std::vector<SequenceFiles> findWanted(const GroundTruthOptions& options) {
-  std::vector<SequenceFiles> wanted;
-  if (options.root.empty()) return wanted;
-  const std::vector<SequenceFiles> all = pcrb::findSequences(options.root);
-  const auto& names = options.sequences;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(wanted), [&](const SequenceFiles& files) {
-    return files.kind == options.kind &&
-           (names.empty() || std::any_of(names.begin(), names.end(),
-                                         [&](const auto& name) { return isNamed(files, name); }));
-  });
+  if (options.root.empty()) return {};
+  std::vector<SequenceFiles> all = pcrb::findSequences(options.root);
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [&](const SequenceFiles& files) { return files.kind != options.kind; }),
+            all.end());
+  std::vector<pcrb::SequenceName> names;
+  for (const SequenceFiles& files : all) names.push_back({files.data_set, files.sequence});
   const std::string expected = std::string("a problem file <sequence>_") + toString(options.kind);
-  for (const std::string& name : names) {
-    if (std::none_of(wanted.begin(), wanted.end(),
-                     [&](const SequenceFiles& files) { return isNamed(files, name); })) {
-      throw pcrb::InvalidFile(options.root, 0, "no '" + name + "'", expected + ".txt of it");
-    }
+  std::vector<SequenceFiles> wanted;
+  for (const std::size_t i :
+       pcrb::selectNamed(names, options.sequences, [&](const std::string& word) {
+         throw pcrb::InvalidFile(options.root, 0, "no '" + word + "'", expected + ".txt of it");
+       })) {
+    wanted.push_back(all[i]);
   }
   if (wanted.empty()) throw pcrb::InvalidFile(options.root, 0, "none", expected + ".txt");
   return wanted;

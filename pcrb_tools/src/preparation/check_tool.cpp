@@ -82,43 +82,31 @@ Contents findContents(const std::string& root) {
   return contents;
 }
 
-bool isWantedName(const std::vector<std::string>& wanted, const pcrb::SequenceName& name) {
-  return wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const std::string& word) {
-           return pcrb::namesSequence(word, name);
-         });
-}
-
 pcrb::SequenceName nameOf(const SequenceFiles& files) { return {files.data_set, files.sequence}; }
 
 /// Takes away what is not wanted; every word must name something.
 Contents selectWanted(const CheckOptions& options) {
-  Contents contents = findContents(options.root);
+  const Contents contents = findContents(options.root);
   if (contents.files.empty() && contents.bare.empty()) {
     throw pcrb::InvalidFile(options.root, 0, "no problem file and no clouds",
                             "<data set>/<sequence>_local.txt or _global.txt, or folders of .pcd");
   }
-  for (const std::string& word : options.sequences) {
-    const auto is_named = [&word](const pcrb::SequenceName& name) {
-      return pcrb::namesSequence(word, name);
-    };
-    const bool is_there =
-        std::any_of(contents.bare.begin(), contents.bare.end(), is_named) ||
-        std::any_of(contents.files.begin(), contents.files.end(),
-                    [&](const SequenceFiles& files) { return is_named(nameOf(files)); });
-    if (is_there) continue;
-    throw pcrb::InvalidParameter("found no problem file and no clouds of '" + word + "' below " +
-                                 options.root);
+  std::vector<pcrb::SequenceName> names = contents.bare;
+  std::transform(contents.files.begin(), contents.files.end(), std::back_inserter(names), nameOf);
+  Contents wanted;
+  const std::size_t bare_count = contents.bare.size();
+  for (const std::size_t i :
+       pcrb::selectNamed(names, options.sequences, [&](const std::string& word) {
+         throw pcrb::InvalidParameter("found no problem file and no clouds of '" + word +
+                                      "' below " + options.root);
+       })) {
+    if (i < bare_count) {
+      wanted.bare.push_back(contents.bare[i]);
+    } else {
+      wanted.files.push_back(contents.files[i - bare_count]);
+    }
   }
-  const auto keep = [&options](auto& all, auto name_of) {
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [&](const auto& each) {
-                               return !isWantedName(options.sequences, name_of(each));
-                             }),
-              all.end());
-  };
-  keep(contents.files, nameOf);
-  keep(contents.bare, [](const pcrb::SequenceName& name) { return name; });
-  return contents;
+  return wanted;
 }
 
 /// Sequences with one list only.

@@ -230,26 +230,19 @@ class Preparation {
   Convert convert_own_;
 };
 
-bool isWanted(const std::string& wanted, const SequenceLog& log) {
-  return pcrb::namesSequence(wanted, {log.data_set, log.sequence});
-}
-
 /// The logs of the sequences that are asked for, each of which must be there.
 std::vector<SequenceLog> selectLogs(const PrepareOptions& options) {
   const std::vector<SequenceLog> logs = findLogs(options.logs);
-  if (options.sequences.empty()) return logs;
-  for (const auto& wanted : options.sequences) {
-    if (std::none_of(logs.begin(), logs.end(),
-                     [&wanted](const auto& log) { return isWanted(wanted, log); })) {
-      throw pcrb::InvalidParameter("found no log of " + wanted + " in " + options.logs +
-                                   ", expected data sets, sequences, or <data set>/<sequence>");
-    }
-  }
+  std::vector<pcrb::SequenceName> names;
+  for (const auto& log : logs) names.push_back({log.data_set, log.sequence});
   std::vector<SequenceLog> selected;
-  std::copy_if(logs.begin(), logs.end(), std::back_inserter(selected), [&](const auto& log) {
-    return std::any_of(options.sequences.begin(), options.sequences.end(),
-                       [&log](const auto& wanted) { return isWanted(wanted, log); });
-  });
+  for (const std::size_t i :
+       pcrb::selectNamed(names, options.sequences, [&](const std::string& word) {
+         throw pcrb::InvalidParameter("found no log of " + word + " in " + options.logs +
+                                      ", expected data sets, sequences, or <data set>/<sequence>");
+       })) {
+    selected.push_back(logs[i]);
+  }
   return selected;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -73,10 +74,17 @@ struct SequenceName {
 /// `data_set/sequence`. This is the one rule of all programs.
 bool namesSequence(const std::string& word, const SequenceName& name);
 
-/// The sequences that the words of a selection name (namesSequence).
+/// The sequences that the words of a selection name (namesSequence); all where there are no words.
+///
+/// @param refuse  called with the first word that names none: throws what is wrong with it.
+/// @return        ascending positions in `known`.
+std::vector<std::size_t> selectNamed(const std::vector<SequenceName>& known,
+                                     const std::vector<std::string>& words,
+                                     const std::function<void(const std::string& word)>& refuse);
+
+/// The same of a run, which has words.
 ///
 /// @param known  sequences to choose from.
-/// @param words  each must name one at least.
 /// @param place  where the known ones are, for the message: `below /data`, `in the catalog`.
 /// @return       ascending positions in `known`.
 /// @throws InvalidParameter  with the first word that names none, and the known names.
