@@ -38,6 +38,11 @@ pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t 
 
 }  // namespace
 
+ConvertedScan placed(pcrb::SensorScan scan, const pcrb::Transform& T_world_sensor) {
+  const pcrb::PointCounts counts = scan.counts;
+  return {pcrb::placeScan(std::move(scan), T_world_sensor), counts};
+}
+
 pcrb::MemoryBudget::Share takeMemoryOfFiles(const std::vector<std::string>& files) {
   std::size_t bytes = 0;
   std::size_t unpacked = 0;
@@ -84,9 +89,11 @@ void convertFileScans(const LogFiles& files, std::vector<FileScan> scans, Conver
     }
     conversion.add(scan.cloud_name, [&files, index = scan.file, make = std::move(scan.make)] {
       const std::string path = files.all()[index].path();
-      const auto share = takeMemoryOfFiles({path});
+      auto memory = takeMemoryOfFiles({path});
       const pcrb::FileBytes bytes = files.read(index);
-      return make(bytes.text(), path);
+      ConvertedScan converted = make(bytes.text(), path);
+      converted.memory = std::move(memory);
+      return converted;
     });
   }
   // Those have their memory while they wait, and a job before them would wait for it for ever.

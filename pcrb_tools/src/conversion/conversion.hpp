@@ -27,8 +27,12 @@ namespace pcrb_tools {
 struct ConvertedScan {
   pcrb::DatasetCloud cloud;
   pcrb::PointCounts counts;
-  std::string refusal{};  ///< why there is no cloud; empty = there is
+  std::string refusal{};               ///< why there is no cloud; empty = there is
+  pcrb::MemoryBudget::Share memory{};  ///< that the cloud has until it is written
 };
+
+/// A scan where it belongs.
+ConvertedScan placed(pcrb::SensorScan scan, const pcrb::Transform& T_world_sensor);
 
 /// Waits for the memory that a scan takes, before its files are read.
 /// @throws InvalidFile  if that is more than the process's MemoryBudget.

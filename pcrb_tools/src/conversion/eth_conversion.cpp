@@ -71,13 +71,12 @@ std::pair<Poses, std::string> findPoses(const LogFiles& files) {
 ConvertedScan makeEthCloud(std::string_view bytes, const std::string& path, EthFrame frame,
                            const std::optional<pcrb::Transform>& pose) {
   pcrb::SensorScan scan = pcrb::parseEthScan(bytes, path);
-  const pcrb::PointCounts counts = scan.counts;
-  if (frame == EthFrame::kLocal) return {pcrb::placeScan(std::move(scan), pose.value()), counts};
+  if (frame == EthFrame::kLocal) return placed(std::move(scan), pose.value());
   pcrb::DatasetCloud cloud;
   cloud.points = std::move(scan.points);
   if (pose) cloud.viewpoint = pcrb::asViewpoint(*pose);
   cloud.is_viewpoint_known = pose.has_value();
-  return {std::move(cloud), counts};
+  return {std::move(cloud), scan.counts};
 }
 
 void noteMissingNumbers(const std::map<std::uint64_t, std::size_t>& scans,

@@ -102,10 +102,11 @@ class KaistLog {
     spoolArchived(work, *spool);
     for (const Work& pair : work) {
       conversion.add(pair.pair.cloud_name, [this, spool, pair] {
-        const auto share =
-            takeMemoryOfFiles({pathOf(pair.left, *spool), pathOf(pair.right, *spool)});
-        return mergePair(frames_, pair.pair, readScan(pair.left, *spool),
-                         readScan(pair.right, *spool));
+        auto memory = takeMemoryOfFiles({pathOf(pair.left, *spool), pathOf(pair.right, *spool)});
+        ConvertedScan scan = mergePair(frames_, pair.pair, readScan(pair.left, *spool),
+                                       readScan(pair.right, *spool));
+        scan.memory = std::move(memory);
+        return scan;
       });
     }
     return conversion.finish();

@@ -17,21 +17,6 @@ constexpr const char* kGlobalPoseFile = "global_pose.csv";
 constexpr const char* kLeftCalibration = "Vehicle2LeftVLP.txt";
 constexpr const char* kRightCalibration = "Vehicle2RightVLP.txt";
 
-/// Parses the file that is asked for, else the one of that name in the log.
-template <typename Parse>
-auto parseFile(const std::string& path, const LogFiles* log, const char* name, Parse parse) {
-  if (!path.empty()) return parse(pcrb::FileBytes(path).text(), path);
-  std::vector<std::size_t> found;
-  if (log != nullptr) {
-    found = log->find([name](const LogFile& file) { return file.fileName() == name; });
-  }
-  if (found.size() != 1) {
-    throw pcrb::InvalidFile(log == nullptr ? "input" : log->all().front().container, 0,
-                            std::to_string(found.size()) + " files " + name, "one");
-  }
-  return parse(log->text(found.front()), log->all()[found.front()].path());
-}
-
 /// How far the two streams may be apart, at least.
 constexpr pcrb::Stamp kPatience = 5 * pcrb::kSecond;
 
@@ -43,9 +28,10 @@ bool isFrameFile(const LogFile& file) {
 }
 
 KaistFrames readFrames(const KaistRequest& request, const LogFiles* log) {
-  return {parseFile(request.left_calibration, log, kLeftCalibration, pcrb::parseKaistCalibration),
-          parseFile(request.right_calibration, log, kRightCalibration, pcrb::parseKaistCalibration),
-          parseFile(request.poses, log, kGlobalPoseFile, pcrb::parseKaistTrajectory)};
+  return {
+      parseChosen(request.left_calibration, log, kLeftCalibration, pcrb::parseKaistCalibration),
+      parseChosen(request.right_calibration, log, kRightCalibration, pcrb::parseKaistCalibration),
+      parseChosen(request.poses, log, kGlobalPoseFile, pcrb::parseKaistTrajectory)};
 }
 
 KaistScanSelector::KaistScanSelector(const KaistFrames& frames, const KaistRequest& request,

@@ -131,6 +131,13 @@ std::vector<std::size_t> LogFiles::find(const Predicate& wanted) const {
   return indices;
 }
 
+std::size_t LogFiles::findOne(const std::string& file_name) const {
+  const auto found = find([&](const LogFile& file) { return file.fileName() == file_name; });
+  if (found.size() == 1) return found.front();
+  throw pcrb::InvalidFile(files_.front().container, 0,
+                          std::to_string(found.size()) + " files " + file_name, "one");
+}
+
 pcrb::FileBytes LogFiles::read(std::size_t index) const {
   return pcrb::FileBytes(files_.at(index).path());
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pcrb_core/error.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 
 namespace pcrb_tools {
@@ -41,6 +42,10 @@ class LogFiles {
   /// Indices of the files that a predicate wants.
   std::vector<std::size_t> find(const Predicate& wanted) const;
 
+  /// Index of the one file of a name.
+  /// @throws InvalidFile  if there is none, or several.
+  std::size_t findOne(const std::string& file_name) const;
+
   /// Bytes of a file that was read at once.
   const std::string& text(std::size_t index) const { return texts_.at(index); }
 
@@ -60,6 +65,20 @@ class LogFiles {
   std::vector<std::string> archives_;
   std::map<std::size_t, std::string> texts_;
 };
+
+/// Parses a file that is asked for, else the one of a name in the log, which was read at once.
+///
+/// @param path   that is asked for; empty: none.
+/// @param log    may be null.
+/// @param parse  takes the text and the path for messages.
+template <typename Parse>
+auto parseChosen(const std::string& path, const LogFiles* log, const std::string& file_name,
+                 Parse parse) {
+  if (!path.empty()) return parse(pcrb::FileBytes(path).text(), path);
+  if (log == nullptr) throw pcrb::InvalidFile("input", 0, "0 files " + file_name, "one");
+  const std::size_t index = log->findOne(file_name);
+  return parse(log->text(index), log->all()[index].path());
+}
 
 /// A hidden folder for files from an archive that are needed in another order than they come in.
 /// Names in it are numbers, never the archive's. It goes with the object; what a killed run left

@@ -59,9 +59,7 @@ std::string requireOneSet(const LogFiles& files, const std::map<std::string, std
 
 ConvertedScan makePlanetaryCloud(std::string_view bytes, const std::string& path,
                                  const pcrb::Transform& T_world_sensor, double max_malformed) {
-  pcrb::SensorScan scan = pcrb::parsePlanetaryScan(bytes, path, max_malformed);
-  const pcrb::PointCounts counts = scan.counts;
-  return {pcrb::placeScan(std::move(scan), T_world_sensor), counts};
+  return placed(pcrb::parsePlanetaryScan(bytes, path, max_malformed), T_world_sensor);
 }
 
 }  // namespace

@@ -69,24 +69,6 @@ constexpr const char* kListFile = "depth.txt";
 constexpr const char* kGroundTruthFile = "groundtruth.txt";
 constexpr double kPngUnits = 5000.0;  ///< a metre in the data set's PNGs
 
-/// The one file with a name.
-std::size_t requireOne(const LogFiles& files, const std::string& name) {
-  const auto found = files.find([&](const LogFile& file) { return file.fileName() == name; });
-  if (found.size() != 1) {
-    throw pcrb::InvalidFile(files.all().front().container, 0,
-                            std::to_string(found.size()) + " files " + name, "one");
-  }
-  return found.front();
-}
-
-pcrb::TrajectoryFile readTrajectory(const LogFiles& files, const TumRequest& request) {
-  if (!request.poses.empty()) {
-    return pcrb::parseTrajectory(pcrb::FileBytes(request.poses).text(), request.poses);
-  }
-  const std::size_t index = requireOne(files, kGroundTruthFile);
-  return pcrb::parseTrajectory(files.text(index), files.all()[index].path());
-}
-
 /// The folder of the log: `rgbd_dataset_freiburg3_…`, from inside an archive or from its path.
 std::string tumSequenceOf(const TumRequest& request, const LogFile& list) {
   if (!request.sequence.empty()) return request.sequence;
@@ -129,9 +111,7 @@ FileScan planImage(const ListedImage& image, const pcrb::Transform& T_world_came
           cameraText(intrinsics, kPngUnits) + poseText(T_world_camera),
           [T_world_camera, intrinsics](std::string_view bytes, const std::string& path) {
             const DepthPng png = decodeDepthPng(bytes, path);
-            pcrb::SensorScan scan = pcrb::depthToScan(png.view(kPngUnits), intrinsics, path);
-            const pcrb::PointCounts counts = scan.counts;
-            return ConvertedScan{pcrb::placeScan(std::move(scan), T_world_camera), counts};
+            return placed(pcrb::depthToScan(png.view(kPngUnits), intrinsics, path), T_world_camera);
           }};
 }
 
@@ -139,8 +119,11 @@ ConversionReport convertImages(const TumRequest& request) {
   const LogFiles files(request.inputs, [](const LogFile& file) {
     return file.fileName() == kListFile || file.fileName() == kGroundTruthFile;
   });
-  const std::size_t list = requireOne(files, kListFile);
-  const auto [trajectory, notes] = readTrajectory(files, request);
+  const std::size_t list = files.findOne(kListFile);
+  const auto [trajectory, notes] = parseChosen(request.poses, &files, kGroundTruthFile,
+                                               [](std::string_view text, const std::string& path) {
+                                                 return pcrb::parseTrajectory(text, path);
+                                               });
   Conversion conversion(request, tumSequenceOf(request, files.all()[list]), 0);
   announcePoses(trajectory, conversion, notes);
   TumScanSelector selector(trajectory, request.options, maxRate(request.options, TumInput::kDepth),

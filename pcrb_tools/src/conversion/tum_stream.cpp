@@ -75,9 +75,7 @@ void TumStream::convert(pcrb::Stamp stamp, const std::string& topic, const std::
   const std::string name = TumScanSelector::cloudName(stamp);
   if (!conversion_.wants(name, identity_ + topic + '\n' + how + poseText(*pose))) return;
   conversion_.add(name, [make, T_world_camera = *pose, label = topic + ' ' + name] {
-    pcrb::SensorScan scan = make(label);
-    const pcrb::PointCounts counts = scan.counts;
-    return ConvertedScan{pcrb::placeScan(std::move(scan), T_world_camera), counts};
+    return placed(make(label), T_world_camera);
   });
 }
 
