@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "datasets/pose_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
@@ -15,15 +16,6 @@ std::string_view takeWord(std::string_view& line) {
   const std::string_view word = line.substr(0, line.find_first_of(" \t"));
   line.remove_prefix(word.size());
   return word;
-}
-
-/// The next line that is neither blank nor a comment.
-bool nextRow(LineReader& reader, std::string_view& line) {
-  while (reader.nextRow(line)) {
-    line = trimmed(line);
-    if (line.front() != '#') return true;
-  }
-  return false;
 }
 
 Stamp requireStamp(const LineReader& reader, std::string_view word) {
@@ -50,7 +42,7 @@ std::vector<TumImage> parseTumImageList(std::string_view text, const std::string
   std::vector<TumImage> images;
   LineReader reader(text, name);
   std::string_view line;
-  while (nextRow(reader, line)) {
+  while (nextPoseRow(reader, line)) {
     const Stamp stamp = requireStamp(reader, takeWord(line));
     const std::string_view path = takeWord(line);
     if (!trimmed(line).empty() || !staysBelow(path)) {

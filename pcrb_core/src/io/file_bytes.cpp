@@ -117,6 +117,15 @@ std::string toHex(const Hash& hash) {
 
 }  // namespace
 
+std::optional<std::string> startOfFile(const std::string& path, std::size_t size) {
+  std::string start(size, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(size));
+  if (file.bad() || !file.is_open()) return std::nullopt;
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return start;
+}
+
 std::string fileHash(const std::string& path) {
   crypto_generichash_state state;
   crypto_generichash_init(&state, nullptr, 0, kHashBytes);

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <initializer_list>
 #include <mutex>
 #include <string_view>
@@ -118,15 +117,10 @@ double pointTimeScale(std::string_view field, bool is_float) {
 
 namespace {
 
-/// Enough for any header.
-std::string startOfFile(const std::string& path) {
+std::string readHeader(const std::string& path) {
   constexpr std::size_t kLongestHeader = 1 << 16;  // bytes
-  std::string start(kLongestHeader, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  if (file.bad() || !file.is_open()) throw InvalidFile(path, "cannot be read");
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  return start;
+  if (auto start = startOfFile(path, kLongestHeader)) return *std::move(start);
+  throw InvalidFile(path, "cannot be read");
 }
 
 }  // namespace
@@ -147,14 +141,14 @@ std::size_t memoryOfPackedPcd(std::string_view start) {
 
 std::size_t memoryOfPackedPcdFile(const std::string& path) {
   try {
-    return memoryOfPackedPcd(startOfFile(path));
+    return memoryOfPackedPcd(readHeader(path));
   } catch (const InvalidFile&) {
     return 0;
   }
 }
 
 std::optional<Transform> readViewpoint(const std::string& path) {
-  const std::string start = startOfFile(path);
+  const std::string start = readHeader(path);
   LineReader lines(start, path);
   const PcdHeader header = readPcdHeader(lines, false);
   DatasetCloud cloud;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <boost/locale/utf.hpp>
-#include <fstream>
 #include <utility>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/foreign_data.hpp"
 
 namespace pcrb {
@@ -91,13 +91,11 @@ void requireData(std::string_view start, const std::string& name) {
 }
 
 void requireDataFile(const std::string& path) {
-  std::string start(512, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InvalidFile(path, "cannot be read");
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  if (start.empty()) throw InvalidFile(path, 0, "an empty file", "data");
-  if (!isArchive(start)) requireData(start, path);
+  constexpr std::size_t kEnough = 512;  // bytes
+  const auto start = startOfFile(path, kEnough);
+  if (!start) throw InvalidFile(path, "cannot be read");
+  if (start->empty()) throw InvalidFile(path, 0, "an empty file", "data");
+  if (!isArchive(*start)) requireData(*start, path);
 }
 
 bool LineReader::next(std::string_view& line) {

@@ -7,6 +7,7 @@
 #include "archives/bag_records.hpp"
 #include "common/process.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
 
@@ -189,11 +190,10 @@ void BagCheck::checkMessage(std::uint64_t place, std::uint32_t connection, Messa
 }  // namespace
 
 void requireRos1Bag(const std::string& path) {
-  std::string start(512, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw pcrb::InvalidFile(path, 0, "nothing that can be read", "a bag of ROS 1");
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
+  constexpr std::size_t kEnough = 512;  // bytes
+  const auto begin = pcrb::startOfFile(path, kEnough);
+  if (!begin) throw pcrb::InvalidFile(path, 0, "nothing that can be read", "a bag of ROS 1");
+  const std::string& start = *begin;
   pcrb::requireData(start, path);
   const auto begins = [&](std::string_view with) {
     return start.compare(0, with.size(), with) == 0;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,9 @@ class FileBytes {
   std::unique_ptr<char[]> bytes_;  // not a std::string, which would write zeros first
   std::size_t size_ = 0;
 };
+
+/// The first bytes of a file, at most so many; nothing if it cannot be read.
+std::optional<std::string> startOfFile(const std::string& path, std::size_t size);
 
 /// BLAKE2b-256 of a file's bytes as 64 hexadecimal digits (libsodium).
 ///
