@@ -47,13 +47,23 @@ TEST(CorrespondenceError, RefusesCloudsThatAreNotHomologous) {
   PCRB_EXPECT_ERROR(InvalidProblem, error({{1, 1, 1}}, {{0, 0, 0}}), "no point farther");
 }
 
+/// PCL 1.10 has no constructor for it.
+pcl::PointXYZI pclPoint(float x, float y, float z) {
+  pcl::PointXYZI point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  point.intensity = 9.0F;
+  return point;
+}
+
 TEST(CorrespondenceErrorOfPclClouds, IsThatOfTheSamePoints) {
   pcl::PointCloud<pcl::PointXYZI> aligned, truth;
   Cloud p, g;
   for (int i = 0; i < 20; ++i) {
     const auto k = static_cast<float>(i);
-    aligned.push_back({k, k * k, 1.0F, 9.0F});
-    truth.push_back({k + 0.5F, k * k, 1.0F, 9.0F});
+    aligned.push_back(pclPoint(k, k * k, 1.0F));
+    truth.push_back(pclPoint(k + 0.5F, k * k, 1.0F));
     p.emplace_back(k, k * k, 1.0);
     g.emplace_back(k + 0.5, k * k, 1.0);
   }
