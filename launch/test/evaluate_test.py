@@ -112,7 +112,7 @@ class EvaluateTest(TestCase):
                                  'node:=hdl_localization', 'max_median:=1']))
         self.assert_ends_well(dump)
         self.assertRegex(dump.output(), r'benchmark_server/under_test: hdl_localization')
-        self.assertRegex(dump.output(), r'localization_bridge/recipe:')
+        self.assertRegex(dump.output(), r'localization_bridge/recipe/')
 
     def test_fails_soon_where_a_localization_node_does_not_start(self):
         self.assert_fails_with(self.rostest(node_launch='localization_standins no_such.launch'),
