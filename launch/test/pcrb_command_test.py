@@ -82,7 +82,7 @@ class PcrbCommandTest(TestCase):
         bag, = glob.glob(os.path.join(logs, 'tum', '*long_office_household.bag'))
         result = pcrb('convert', 'tum', bag, '--root', self.path('clouds'), '--messages', 'depth', '--threads', '2')
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertGreater(len(os.listdir(self.path('clouds', 'tum', 'long_office_household'))), 10)
+        self.assertGreater(len(os.listdir(self.path('clouds', 'tum', 'long_office_household'))), 5)
         for name in COMMANDS:
             names = re.findall(r'^ +(?:-\w, )?(--[a-z-]+|[A-Z][A-Z_]+)\b', pcrb(*name.split(), '--help').stdout, re.MULTILINE)
             self.assertEqual(sorted(names), sorted(set(names)), name)
