@@ -22,8 +22,8 @@ class Recorder:
         self._lock = threading.Lock()
 
     def close(self):
-        for subscriber in self._subscribers.values():
-            subscriber.unregister()
+        while self._subscribers:
+            self._subscribers.popitem()[1].unregister()
 
     def add(self, place, value, raw=b''):
         with self._lock:
