@@ -46,9 +46,11 @@ class Recorder:
         self.add(f'{topic} connection', {name: value for name, value in header.items() if isinstance(value, str)})
 
     def look(self):
-        """Subscribes to new topics; records parameters and the names of nodes, topics and services anew."""
+        """Subscribes to new topics with a publisher; records parameters and the names of nodes, topics and services anew."""
+        published = {topic for topic, _ in self._master.getSystemState()[0]}
         for topic, kind in self._master.getTopicTypes():
-            if topic not in self._subscribers:
+            # Of one that a former server published, rospy would hand out what another subscriber of this process got.
+            if topic in published and topic not in self._subscribers:
                 self._subscribers[topic] = rospy.Subscriber(topic, rospy.AnyMsg, self._take, topic)
                 self.add('topic', [topic, kind])
         state = {'parameters': rospy.get_param('/'), 'graph': self._master.getSystemState()}
