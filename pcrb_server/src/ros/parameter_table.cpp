@@ -27,10 +27,10 @@ std::string alternatives(std::vector<std::string> words) {
 
 /// Name, default and unit.
 std::string signatureOf(const NodeParameter& parameter) {
-  std::string text = "  " + parameter.name + " (" + parameter.fallback;
   const bool has_unit = !parameter.unit.empty() && choicesOf(parameter).empty();
-  if (has_unit) text += (parameter.fallback.empty() ? "" : " ") + parameter.unit;
-  return text + ")";
+  std::string details = parameter.fallback;
+  if (has_unit) details += (details.empty() ? "" : " ") + parameter.unit;
+  return "  " + parameter.name + (details.empty() ? "" : " (" + details + ")");
 }
 
 /// Text in a column of its own, beside what stands to the left of its first line.

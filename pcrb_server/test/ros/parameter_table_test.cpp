@@ -43,6 +43,7 @@ const ParameterTable kTable{
     {"", "", "", "Times"},
     {"rate", "2", "Hz", "rate of the scans"},
     {"order", "worst", "worst|best|first", "order of the scenes"},
+    {"plugin", "", "", "library to load"},
     {"root", kRequired, "",
      "a folder whose help is so long that it does not fit into one line beside its name and so is "
      "continued in the next one"}};
@@ -52,14 +53,15 @@ TEST(ParameterTable, HelpHasNameDefaultUnitAndWords) {
   EXPECT_EQ(text.substr(0, text.find("  root")),
             "Times:\n"
             "  rate (2 Hz)                       rate of the scans\n"
-            "  order (worst)                     order of the scenes: worst, best or first\n");
+            "  order (worst)                     order of the scenes: worst, best or first\n"
+            "  plugin                            library to load\n");
 }
 
 TEST(ParameterTable, HelpFitsIntoAHundredColumns) {
   std::istringstream lines(formatParameters(kTable));
   int count = 0;
   for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 100u) << line;
-  EXPECT_EQ(count, 5);
+  EXPECT_EQ(count, 6);
 }
 
 TEST(ParameterTable, FindsAnEntryByItsNameAndNoHeading) {
