@@ -34,7 +34,8 @@ std::string formatParameters(const pcrb::Dataset& dataset) {
   std::string text = "overlap_distance: " + pcrb::formatShortest(dataset.overlap_distance) +
                      "  # m, between a point and one that it overlaps with\n" +
                      "voxel_leaf: " + pcrb::formatShortest(dataset.voxel_leaf) +
-                     "  # m, of the voxel grids of methods and maps\n# bounds of the perturbations, m and degrees\nlocal: " +
+                     "  # m, of the voxel grids of methods and maps\n# bounds of the "
+                     "perturbations, m and degrees\nlocal: " +
                      formatBounds(dataset.local) + "\nglobal: " + formatBounds(dataset.global) +
                      "\n";
   if (!dataset.sensor.empty()) {
