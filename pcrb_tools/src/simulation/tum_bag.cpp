@@ -47,7 +47,8 @@ std::uint32_t packColor(const std::uint8_t* color) {
 std::array<float, 3> pointOf(const DepthCamera& camera, std::size_t pixel, float depth) {
   const std::size_t width = static_cast<std::size_t>(camera.width);
   const float u = static_cast<float>(pixel % width);
-  const float v = static_cast<float>(pixel / width);
+  const std::size_t row = pixel / width;
+  const float v = static_cast<float>(row);
   const float focal = static_cast<float>(camera.focal);
   return {(u - static_cast<float>(camera.center_x)) * depth / focal,
           (v - static_cast<float>(camera.center_y)) * depth / focal, depth};

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "pcrb_core/error.hpp"
 #include "simulation/props.hpp"
 #include "support/expect_error.hpp"
 #include "support/sample_log_support.hpp"
@@ -105,7 +106,8 @@ TEST_F(TumLogs, PointsAreThoseOfTheirPixelsOrAllNan) {
       continue;
     }
     const double u = static_cast<double>(i % 80);
-    const double v = static_cast<double>(i / 80);
+    const std::size_t row = i / 80;
+    const double v = static_cast<double>(row);
     EXPECT_NEAR(point[0], (u - (320.0 / 8.0 - 0.5)) / (525.0 / 8.0) * point[2], 1e-5);
     EXPECT_NEAR(point[1], (v - (240.0 / 8.0 - 0.5)) / (525.0 / 8.0) * point[2], 1e-5);
   }
