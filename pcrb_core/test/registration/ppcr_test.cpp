@@ -68,7 +68,7 @@ TEST(PpcrAssociation, CutsAtTheQuantileOfAllDistancesAndAtTheRadius) {
 }
 
 TEST(Ppcr, EndsWithinOnePercentOfTheTextbook) {
-  constexpr double kLeaf = 0.6;
+  constexpr double kGridLeaf = 0.6;
   const Parameters parameters{{"voxel_leaf", "0.6"}};
   for (const std::uint64_t seed : {1U, 2U}) {
     Random random(seed);
@@ -81,8 +81,8 @@ TEST(Ppcr, EndsWithinOnePercentOfTheTextbook) {
 
     // The method works relative to the target's centroid, rounded to metres: so do its cells.
     const Transform shift(Eigen::Translation3d(-centroid(target).array().round().matrix()));
-    const Points y = voxelGrid(transformed(target, shift).points, kLeaf);
-    const Points x = subsample(voxelGrid(transformed(source, shift).points, kLeaf), 0.3, 1);
+    const Points y = voxelGrid(transformed(target, shift).points, kGridLeaf);
+    const Points x = subsample(voxelGrid(transformed(source, shift).points, kGridLeaf), 0.3, 1);
     pcrb_test::TextbookPpcr textbook(y, x, 10);
     const Transform expected = shift.inverse() * textbook.align(Transform::Identity()) * shift;
 

@@ -44,6 +44,17 @@ std::map<std::string, int> withNames(std::map<std::string, int> entries, const N
   return entries;
 }
 
+/// Of those that take scans the entries of nodes that take the initial pose, too; where there is
+/// none, as behind a filter of the scans, all entries.
+std::map<std::string, int> ofNodes(const std::map<std::string, int>& takers,
+                                   const std::map<std::string, int>& others) {
+  auto nodes = withNames(takers, others);
+  if (!nodes.empty()) return nodes;
+  nodes = takers;
+  nodes.insert(others.begin(), others.end());
+  return nodes;
+}
+
 template <typename Message>
 ros::Publisher advertise(ros::NodeHandle& node, const std::string& topic, SubscriberNames& names,
                          bool is_latched) {
@@ -105,14 +116,12 @@ RobotInputs::RobotInputs(ros::NodeHandle& node, const BridgeParameters& paramete
   }
 }
 
+std::map<std::string, int> RobotInputs::arrivals() const {
+  return ofNodes(scan_listeners_.arrivals(), initial_pose_listeners_.arrivals());
+}
+
 std::map<std::string, int> RobotInputs::departures() const {
-  const auto takers = scan_listeners_.departures();
-  const auto others = initial_pose_listeners_.departures();
-  auto nodes = withNames(takers, others);
-  if (!nodes.empty()) return nodes;
-  nodes = takers;  // a filter of the scans, with the localizer behind it
-  nodes.insert(others.begin(), others.end());
-  return nodes;
+  return ofNodes(scan_listeners_.departures(), initial_pose_listeners_.departures());
 }
 
 std::map<std::string, int> RobotInputs::nodes() const {

@@ -113,6 +113,9 @@ class RobotInputs {
   /// initial pose, if there are any; of all that took one of the two, but the observers, otherwise.
   std::map<std::string, int> departures() const;
 
+  /// How often each of them has come.
+  std::map<std::string, int> arrivals() const;
+
   /// Those of them that are there now.
   std::map<std::string, int> nodes() const;
 

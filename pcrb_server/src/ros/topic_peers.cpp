@@ -50,6 +50,7 @@ ros::SubscriberStatusCallback SubscriberNames::joined() {
     if (isObserver(name)) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     names_.insert(name);
+    ++arrivals_[name];
     departures_.emplace(name, 0);
   };
 }
@@ -67,6 +68,11 @@ ros::SubscriberStatusCallback SubscriberNames::left() {
 std::set<std::string> SubscriberNames::names() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return {names_.begin(), names_.end()};
+}
+
+std::map<std::string, int> SubscriberNames::arrivals() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return arrivals_;
 }
 
 std::map<std::string, int> SubscriberNames::departures() const {

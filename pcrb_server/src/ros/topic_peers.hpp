@@ -33,7 +33,11 @@ class SubscriberNames {
   /// Those there are now, observers excepted.
   std::set<std::string> names() const;
 
-  /// How often each has left that ever was there, observers excepted.
+  /// How often each has come, observers excepted.
+  std::map<std::string, int> arrivals() const;
+
+  /// How often each has left that ever was there, observers excepted. roscpp may see that late: at
+  /// once from ROS 1.15 on, before when it sends next.
   std::map<std::string, int> departures() const;
 
   bool isObserver(const std::string& node) const;
@@ -42,6 +46,7 @@ class SubscriberNames {
   const std::vector<std::string> observers_;
   mutable std::mutex mutex_;
   std::multiset<std::string> names_;
+  std::map<std::string, int> arrivals_;
   std::map<std::string, int> departures_;
 };
 
