@@ -110,8 +110,8 @@ void NodeMonitor::beginPlay() { processes_.usage(inputs_.allNodes()); }
 bool NodeMonitor::hasLeft() const {
   const auto departures = inputs_.departures();
   return std::any_of(departures.begin(), departures.end(), [this](const auto& node) {
-    const auto before = at_start_.find(node.first);
-    return before != at_start_.end() && node.second > before->second;
+    const auto come = at_start_.find(node.first);
+    return come != at_start_.end() && node.second >= come->second;
   });
 }
 

@@ -124,9 +124,7 @@ std::map<std::string, int> RobotInputs::departures() const {
   return ofNodes(scan_listeners_.departures(), initial_pose_listeners_.departures());
 }
 
-std::map<std::string, int> RobotInputs::nodes() const {
-  return withNames(departures(), allNodes());
-}
+std::map<std::string, int> RobotInputs::nodes() const { return withNames(arrivals(), allNodes()); }
 
 std::set<std::string> RobotInputs::allNodes() const {
   std::set<std::string> nodes = scan_listeners_.names();

@@ -116,7 +116,7 @@ class RobotInputs {
   /// How often each of them has come.
   std::map<std::string, int> arrivals() const;
 
-  /// Those of them that are there now.
+  /// Those of them that are there now, with their arrivals.
   std::map<std::string, int> nodes() const;
 
   /// All that take scan, map or initial pose now, observers excepted.
