@@ -74,7 +74,7 @@ void NodeMonitor::beginProblem(bool is_new_target) {
 
 bool NodeMonitor::restart() {
   needs_restart_ = false;
-  before_ = inputs_.arrivals();
+  before_ = inputs_.nodes();
   std_srvs::Trigger service;
   auto client = node_.serviceClient<std_srvs::Trigger>(parameters_.restart_service);
   // The supervisor may just be starting where it is needed for sure.
@@ -93,11 +93,10 @@ bool NodeMonitor::restart() {
 
 bool NodeMonitor::isThere() const {
   if (!inputs_.isScanTaken()) return false;
-  const auto arrivals = inputs_.arrivals();
-  const auto there = inputs_.allNodes();
-  return std::any_of(arrivals.begin(), arrivals.end(), [&](const auto& node) {
+  const auto nodes = inputs_.nodes();
+  return std::any_of(nodes.begin(), nodes.end(), [this](const auto& node) {
     const auto before = before_.find(node.first);
-    return there.count(node.first) > 0 && (before == before_.end() || node.second > before->second);
+    return before == before_.end() || node.second > before->second;
   });
 }
 

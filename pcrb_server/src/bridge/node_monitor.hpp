@@ -87,7 +87,7 @@ class NodeMonitor {
   ros::NodeHandle& node_;
   NodeProcesses processes_;
   bool needs_restart_ = false;
-  std::map<std::string, int> before_;    ///< arrivals of all nodes before the new one's
+  std::map<std::string, int> before_;    ///< arrivals of the nodes before the new one's
   std::map<std::string, int> at_start_;  ///< arrivals of the nodes that have the problem
   int unanswered_ = 0;                   ///< problems in a row
 };

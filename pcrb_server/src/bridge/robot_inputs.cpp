@@ -116,15 +116,14 @@ RobotInputs::RobotInputs(ros::NodeHandle& node, const BridgeParameters& paramete
   }
 }
 
-std::map<std::string, int> RobotInputs::arrivals() const {
-  return ofNodes(scan_listeners_.arrivals(), initial_pose_listeners_.arrivals());
-}
-
 std::map<std::string, int> RobotInputs::departures() const {
   return ofNodes(scan_listeners_.departures(), initial_pose_listeners_.departures());
 }
 
-std::map<std::string, int> RobotInputs::nodes() const { return withNames(arrivals(), allNodes()); }
+std::map<std::string, int> RobotInputs::nodes() const {
+  return withNames(ofNodes(scan_listeners_.arrivals(), initial_pose_listeners_.arrivals()),
+                   allNodes());
+}
 
 std::set<std::string> RobotInputs::allNodes() const {
   std::set<std::string> nodes = scan_listeners_.names();

@@ -113,10 +113,7 @@ class RobotInputs {
   /// initial pose, if there are any; of all that took one of the two, but the observers, otherwise.
   std::map<std::string, int> departures() const;
 
-  /// How often each of them has come.
-  std::map<std::string, int> arrivals() const;
-
-  /// Those of them that are there now, with their arrivals.
+  /// Those of them that are there now, and how often each has come.
   std::map<std::string, int> nodes() const;
 
   /// All that take scan, map or initial pose now, observers excepted.

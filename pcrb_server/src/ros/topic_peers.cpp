@@ -50,7 +50,6 @@ ros::SubscriberStatusCallback SubscriberNames::joined() {
     if (isObserver(name)) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     names_.insert(name);
-    ++arrivals_[name];
     departures_.emplace(name, 0);
   };
 }
@@ -72,7 +71,9 @@ std::set<std::string> SubscriberNames::names() const {
 
 std::map<std::string, int> SubscriberNames::arrivals() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return arrivals_;
+  auto arrivals = departures_;
+  for (const std::string& name : names_) ++arrivals[name];
+  return arrivals;
 }
 
 std::map<std::string, int> SubscriberNames::departures() const {

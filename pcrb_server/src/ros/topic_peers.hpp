@@ -46,7 +46,6 @@ class SubscriberNames {
   const std::vector<std::string> observers_;
   mutable std::mutex mutex_;
   std::multiset<std::string> names_;
-  std::map<std::string, int> arrivals_;
   std::map<std::string, int> departures_;
 };
 
