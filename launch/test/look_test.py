@@ -19,6 +19,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import Child, TestCase, executable, wait_until
 from pcrb_testing_screen import Screen, count, require_screen, wait_for_colors
+from pcrb_testing_wait import LIMIT
 
 WHITE = (255, 255, 255)  # of texts
 
@@ -62,11 +63,23 @@ class LookTest(TestCase):
         self.addCleanup(replay.interrupt)
 
     def look(self, configuration, background, shown, hidden):
-        """Starts rviz with some topics off; the part of the picture that it draws, once the others are seen."""
+        """Starts rviz with some topics off; the part of the picture that it draws, once the others are seen.
+
+        It is started once more if it shows nothing: that it misses latched messages was seen once in CI, and not in 750
+        starts of one configuration here.
+        """
         off = [f'{topic}:=/nowhere{topic}' for topic in hidden]
-        rviz = self.start(Child(['rviz', '-s', '', '-d', rviz_configuration(configuration), *off],
-                                HOME=self.folder, **self.screen.environment()))
-        picture = wait_for_colors(self.screen, background, list(shown.values()))
+        command = ['rviz', '-s', '', '-d', rviz_configuration(configuration), *off]
+        for is_last in False, True:
+            rviz = self.start(Child(command, HOME=self.folder, **self.screen.environment()))
+            try:
+                picture = wait_for_colors(self.screen, rviz, background, list(shown.values()), LIMIT / 2)
+                break
+            except AssertionError as error:
+                if is_last:
+                    raise
+                print(error, flush=True)
+                rviz.kill()
         if os.environ.get('PCRB_PICTURES'):
             names = '_'.join(topic.rpartition('/')[2] for topic in shown)
             self.screen.save(os.path.join(os.environ['PCRB_PICTURES'], f'{configuration}_{names}.ppm'))
@@ -113,7 +126,7 @@ class LookTest(TestCase):
             distance = yaml.safe_load(file)['Visualization Manager']['Views']['Current']['Distance']
         extent = np.ptp(self.data.clouds['hall', maths.SEQUENCES['hall'][0]], axis=0).max()
         self.assertTrue(0.5 * extent < distance < 2.5 * extent, f'{distance} m of {extent} m')
-        wait_for_colors(self.screen, background, [topics['/pcrb/source_aligned']])
+        wait_for_colors(self.screen, look, background, [topics['/pcrb/source_aligned']])
         look.interrupt()
 
     def test_a_localization_node(self):

@@ -5,7 +5,8 @@ import struct
 import unittest
 
 import numpy as np
-from pcrb_testing import Child, wait_until
+from pcrb_testing import Child
+from pcrb_testing_wait import LIMIT, wait_until
 
 
 def require_screen():
@@ -54,13 +55,21 @@ def count(picture, color):
     return int((picture == color).all(axis=2).sum())
 
 
-def wait_for_colors(screen, background, colors, at_least=10):
-    """The part of the screen with that background, once it shows all the colours."""
+def wait_for_colors(screen, program, background, colors, limit=LIMIT):
+    """The part of the screen with that background, once the program shows all the colours; it must not end before."""
+    at_least = 10
+
     def shown():
+        has_ended = program.ended()
         picture = inside(screen.picture(), background)
-        return [picture] if all(count(picture, color) >= at_least for color in colors) else []
+        if all(count(picture, color) >= at_least for color in colors):
+            return [picture]
+        if has_ended:
+            raise AssertionError('it ended')
+        return []
     try:
-        return wait_until(shown, f'the colours {colors} are seen')[0]
-    except AssertionError:
+        return wait_until(shown, f'the colours {colors} are seen', limit)[0]
+    except AssertionError as error:
         found = {color: count(inside(screen.picture(), background), color) for color in colors}
-        raise AssertionError(f'found pixels {found}, expected at least {at_least} of each') from None
+        raise AssertionError(f'{program.command[0]}: {error}; found pixels {found}, expected at least {at_least} of each:\n'
+                             f'{program.output()}') from None

@@ -124,7 +124,7 @@ pcrb report "runs/my icp" --output report --no-figures
         worst = max(self.errors('runs', 'my icp').items(), key=lambda entry: entry[1])
         replay.wait_for_output(f'1/1 rooms/hall local {worst[0]}: error {worst[1]:.3g} ')
         background, topics = roles('problems')
-        wait_for_colors(screen, background, [topics['/pcrb/source_aligned']])
+        wait_for_colors(screen, replay, background, [topics['/pcrb/source_aligned']])
         os.killpg(replay.process.pid, signal.SIGINT)  # Ctrl-C, which ends rviz and the master, too
         replay.wait()
 
