@@ -30,11 +30,11 @@ function(pcrb_set_compile_options target)
   endif()
 endfunction()
 
-# The same for a test program, which is compiled more often than it is run: what takes its time is in libraries.
-function(pcrb_set_test_options target)
+# The same for code that is compiled for longer than it runs, tests above all: most of what handles points is in other libraries.
+function(pcrb_set_quick_options target)
   pcrb_set_compile_options(${target})
   pcrb_set_unity_build(${target})
-  target_compile_options(${target} PRIVATE -O1)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
 # Compiles sixteen sources of a target in one go. Names in unnamed namespaces must then differ within the target.

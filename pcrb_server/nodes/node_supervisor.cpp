@@ -2,9 +2,10 @@
 
 #include "pcrb_server/node_main.hpp"
 
+namespace pcrb::node_supervisor {
 namespace {
 
-const pcrb::NodeHelp kHelp{
+const NodeHelp kHelp{
     "node_supervisor",
     "Runs a launch file as a child and starts it anew when it dies or when "
     "localization_bridge asks for that.",
@@ -12,15 +13,17 @@ const pcrb::NodeHelp kHelp{
 2 s later SIGKILL), then starts it. A child that ends by itself is started anew; one that does so within
 10 s three times in a row, without a result of the server between, is an error. It runs outside the
 supervisor's namespace. The supervisor ends with the process that started it, as when roslaunch is killed.)",
-    pcrb::kSupervisorParameters};
+    kSupervisorParameters};
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return pcrb::runNode(argc, argv, kHelp, [](pcrb::ShutdownRequest& shutdown) {
-    const auto parameters = pcrb::readSupervisorParameters();
-    pcrb::describeLaunch(parameters, shutdown);
-    pcrb::NodeSupervisor(parameters, shutdown).run();
+int run(int argc, char** argv) {
+  return runNode(argc, argv, kHelp, [](ShutdownRequest& shutdown) {
+    const auto parameters = readSupervisorParameters();
+    describeLaunch(parameters, shutdown);
+    NodeSupervisor(parameters, shutdown).run();
     return 0;
   });
 }
+
+}  // namespace pcrb::node_supervisor
