@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "ros/node_calls.hpp"
 #include "ros/notices.hpp"
@@ -102,7 +103,11 @@ bool NodeMonitor::isThere() const {
 
 void NodeMonitor::beginWatch() { at_start_ = inputs_.nodes(); }
 
-void NodeMonitor::extendWatch() { at_start_.merge(inputs_.nodes()); }
+void NodeMonitor::extendWatch() {
+  auto nodes = inputs_.nodes();
+  nodes.merge(at_start_);
+  at_start_ = std::move(nodes);
+}
 
 void NodeMonitor::beginPlay() { processes_.usage(inputs_.allNodes()); }
 
@@ -115,8 +120,12 @@ bool NodeMonitor::hasLeft() const {
 }
 
 int NodeMonitor::restartCount() const {
+  const auto arrivals = inputs_.nodes();
   int sum = 0;
-  for (const auto& [node, departures] : inputs_.departures()) sum += departures;
+  for (const auto& [node, departures] : inputs_.departures()) {
+    const auto come = arrivals.find(node);
+    sum += std::max(departures, come == arrivals.end() ? 0 : come->second - 1);
+  }
   return sum;
 }
 

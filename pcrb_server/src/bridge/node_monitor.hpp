@@ -38,7 +38,7 @@ class NodeProcesses {
 /// Watches over the node under test: its presence, death, hangs and use of resources; asks
 /// `node_supervisor` for a new one.
 ///
-/// A node is back when it takes scans again after it had left.
+/// A node is back when it has come again, which is seen at once; that it left may be seen later.
 class NodeMonitor {
  public:
   NodeMonitor(ros::NodeHandle& node, const BridgeParameters& parameters, const RobotInputs& inputs);
@@ -60,7 +60,8 @@ class NodeMonitor {
   /// Call when the node is there: from now on it has the problem.
   void beginWatch();
 
-  /// Takes those that came since beginWatch() for under test, too.
+  /// Takes those that came since beginWatch() for under test, too: new ones, and the next self of
+  /// one that was there.
   void extendWatch();
 
   /// Whether the node has left since beginWatch().
@@ -76,7 +77,7 @@ class NodeMonitor {
   /// What the node has used since beginPlay(), if its processes are on this machine.
   std::optional<ProcessUsage> usage();
 
-  /// Number of nodes that came and went: another number, another node.
+  /// Number of nodes that were followed by another, or have gone: another number, another node.
   int restartCount() const;
 
  private:
