@@ -70,9 +70,10 @@ RunInfo requireOneConfiguration(const std::vector<ShardRun>& parts) {
   RunInfo merged = parts.front().info;
   for (auto part = parts.begin() + 1; part != parts.end(); ++part) {
     std::string text;
-    for (const auto& [key, here, there] : merged.differences(part->info, RunInfo::Scope::kShards)) {
-      text +=
-          "; " + key + ": " + inBackticksOrNothing(here) + " and " + inBackticksOrNothing(there);
+    for (const auto& [parameter, here, there] :
+         merged.differences(part->info, RunInfo::Scope::kShards)) {
+      text += "; " + parameter + ": " + inBackticksOrNothing(here) + " and " +
+              inBackticksOrNothing(there);
     }
     if (!text.empty()) {
       throw StoreError(part->name() + ": found another configuration than in " +

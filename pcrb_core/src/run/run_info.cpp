@@ -67,6 +67,12 @@ void keepDifferentLines(RunInfo::Difference& difference) {
   difference.there = linesOnlyIn(*difference.there, here);
 }
 
+/// What users call a key of the run's table.
+std::string parameterOf(const std::string& key) {
+  if (key == "upright") return "yaw_only";
+  return key == "kinds" ? "kind" : key;
+}
+
 }  // namespace
 
 RunInfo RunInfo::of(const RunConfiguration& configuration, const RunPlan& plan) {
@@ -140,7 +146,8 @@ std::vector<RunInfo::Difference> RunInfo::differences(const RunInfo& other, Scop
   std::vector<Difference> differences;
   for (const auto& [key, text] : keys) {
     if (!isCompared(roleOfRunKey(key), scope)) continue;
-    Difference difference{key, valueOfKey(table_here, key), valueOfKey(table_there, key)};
+    Difference difference{parameterOf(key), valueOfKey(table_here, key),
+                          valueOfKey(table_there, key)};
     const NamedRunTableRows* rows = findNamedRunTableRows(key);
     const bool may_lack = rows != nullptr && rows->may_lack;
     if (may_lack && (!difference.here || !difference.there)) continue;

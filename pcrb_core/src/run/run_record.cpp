@@ -22,17 +22,11 @@ std::string inBackticks(const std::optional<std::string>& value) {
   return value ? "`" + *value + "`" : "nothing";
 }
 
-/// What users call a key of the run's table.
-std::string parameterOf(const std::string& key) {
-  if (key == "upright") return "yaw_only";
-  return key == "kinds" ? "kind" : key;
-}
-
 /// A line for each difference between what a run has (here) and what it was asked for (there).
 std::string describeDifferences(const std::vector<RunInfo::Difference>& differences) {
   std::string text;
-  for (const auto& [key, here, there] : differences) {
-    text += "\n  " + parameterOf(key) + ": ";
+  for (const auto& [parameter, here, there] : differences) {
+    text += "\n  " + parameter + ": ";
     text += !there ? "not selected"  // of a problem file that the run has
                    : "the run has " + inBackticks(here) + ", asked for " + inBackticks(there);
   }

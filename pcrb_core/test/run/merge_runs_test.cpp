@@ -162,8 +162,10 @@ TEST_F(MergeRunsTest, RefusesAnotherConfigurationAndNamesEveryDifference) {
   Info other = infoOf("0/2", "1");
   other["seed"] = "2";
   other["presentation"] = "localization";
+  other["upright"] = "true";
   options_.runs[1] = makeShard("c", other, {"1"});
-  expectRefusal("seed: `1` and `2`", "presentation: nothing and `localization`");
+  expectRefusal("seed: `1` and `2`", "presentation: nothing and `localization`",
+                "yaw_only: nothing and `true`");
 }
 
 TEST_F(MergeRunsTest, RefusesACloudThatChangedBetweenTwoShardsButNotOneThatOnlyOneUsed) {

@@ -50,10 +50,10 @@ RunInfo someInfo() {
   return info;
 }
 
-std::vector<std::string> keysOf(const std::vector<RunInfo::Difference>& differences) {
-  std::vector<std::string> keys;
-  for (const auto& difference : differences) keys.push_back(difference.key);
-  return keys;
+std::vector<std::string> parametersOf(const std::vector<RunInfo::Difference>& differences) {
+  std::vector<std::string> parameters;
+  for (const auto& difference : differences) parameters.push_back(difference.parameter);
+  return parameters;
 }
 
 TEST(RunInfo, IsTheTableThatRunsHave) {
@@ -112,7 +112,7 @@ TEST(RunInfo, MarksOnlyRunsThatAreAuditedOrLiveOrHadForeignReplies) {
   EXPECT_TRUE(again.configuration.presentation.audit);
   EXPECT_EQ(again.configuration.results, ResultsTime::kLive);
   EXPECT_EQ(again.foreign_replies, 3u);
-  EXPECT_EQ(keysOf(RunInfo().differences(info, Scope::kResume)),
+  EXPECT_EQ(parametersOf(RunInfo().differences(info, Scope::kResume)),
             (std::vector<std::string>{"audit", "results"}));
 }
 
@@ -147,18 +147,18 @@ TEST(RunInfo, ComparesOfARunThatGoesOnItsConfigurationProblemFilesAndShard) {
   other.created = 2.0;
   other.clouds.clear();
   const auto differences = someInfo().differences(other, Scope::kResume);
-  EXPECT_EQ(keysOf(differences),
+  EXPECT_EQ(parametersOf(differences),
             (std::vector<std::string>{"problem_file eth/plain_local.txt", "shard", "time_limit"}));
   EXPECT_EQ(differences[2].here, "0.1");
   EXPECT_EQ(differences[2].there, "5");
-  EXPECT_EQ(keysOf(someInfo().differences(other, Scope::kClient)),
+  EXPECT_EQ(parametersOf(someInfo().differences(other, Scope::kClient)),
             std::vector<std::string>{"client"});
 }
 
 TEST(RunInfo, GoesOnWithTheSameVoxelLeafAndWhereAnOlderRunHasNone) {
   RunInfo other = someInfo();
   other.voxel_leaves = {{"eth", "0.1"}};
-  EXPECT_EQ(keysOf(someInfo().differences(other, Scope::kResume)),
+  EXPECT_EQ(parametersOf(someInfo().differences(other, Scope::kResume)),
             std::vector<std::string>{"voxel_leaf eth"});
   other.voxel_leaves.clear();
   EXPECT_TRUE(someInfo().differences(other, Scope::kResume).empty());
@@ -179,7 +179,7 @@ TEST(RunInfo, ComparesOfShardsAllButWhatTellsThemApart) {
   other.code_version = "0.2.0";
   other.client_parameters = "[a:1]";
   other.others["of another version"] = "y";
-  EXPECT_EQ(keysOf(someInfo().differences(other, Scope::kShards)),
+  EXPECT_EQ(parametersOf(someInfo().differences(other, Scope::kShards)),
             (std::vector<std::string>{"client_parameters", "cloud eth/plain/a b.pcd",
                                       "code_version", "of another version"}));
 }

@@ -87,9 +87,10 @@ struct RunInfo {
   /// not known.
   std::optional<Secret> secretOf(const ProblemKey& key) const;
 
-  /// A key whose value differs; without a value where there is none.
+  /// A key whose value differs, under the name of its parameter; without a value where there is
+  /// none.
   struct Difference {
-    std::string key;
+    std::string parameter;
     std::optional<std::string> here;
     std::optional<std::string> there;
   };
