@@ -14,7 +14,7 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, TestCase, executable, rows, sessions, wait_until
+from pcrb_testing import Child, TestCase, executable, rows, run_info, sessions, wait_until
 
 NUMBERS = ('count', 'replied', 'failed', 'timed_out', 'rejected', 'skipped', 'median', 'q75', 'q95', 'mean', 'stddev')
 
@@ -105,7 +105,9 @@ class EvaluateTest(TestCase):
             self.assertLess(row['error'], row['initial_misalignment'])
 
     def test_takes_a_client_of_the_users_own_and_a_recipe(self):
-        self.assert_ends_well(self.rostest(sequences='hall', subset=2, client_command=executable('pcrb_tools', 'minimal_client.py')))
+        self.assert_ends_well(self.rostest(sequences='hall', subset=2, under_test='mine',
+                                           client_command=executable('pcrb_tools', 'minimal_client.py')))
+        self.assertEqual(run_info(self.path('run'))['under_test'], 'mine')
         for row in rows(self.path('run')):
             self.assertEqual(row['error'], row['initial_misalignment'], 'it replies the guess')
         dump = self.start(Child(['roslaunch', '--dump-params', 'pcrb_launch', 'evaluate.test', f'root:={self.data.root}',
