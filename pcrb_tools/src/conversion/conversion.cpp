@@ -40,7 +40,7 @@ pcrb::MemoryBudget::Share takeMemoryOfScan(const std::string& path, std::size_t 
 
 ConvertedScan placed(pcrb::SensorScan scan, const pcrb::Transform& T_world_sensor) {
   const pcrb::PointCounts counts = scan.counts;
-  return {pcrb::placeScan(std::move(scan), T_world_sensor), counts};
+  return {{}, pcrb::placeScan(std::move(scan), T_world_sensor), counts};
 }
 
 pcrb::MemoryBudget::Share takeMemoryOfFiles(const std::vector<std::string>& files) {

@@ -25,10 +25,10 @@ namespace pcrb_tools {
 
 /// A cloud and what was left out of it.
 struct ConvertedScan {
-  pcrb::DatasetCloud cloud;
-  pcrb::PointCounts counts;
-  std::string refusal{};               ///< why there is no cloud; empty = there is
-  pcrb::MemoryBudget::Share memory{};  ///< that the cloud has until it is written
+  pcrb::MemoryBudget::Share memory{};  ///< that the cloud has; given back after the cloud
+  pcrb::DatasetCloud cloud{};
+  pcrb::PointCounts counts{};
+  std::string refusal{};  ///< why there is no cloud; empty = there is
 };
 
 /// A scan where it belongs.

@@ -76,7 +76,7 @@ ConvertedScan makeEthCloud(std::string_view bytes, const std::string& path, EthF
   cloud.points = std::move(scan.points);
   if (pose) cloud.viewpoint = pcrb::asViewpoint(*pose);
   cloud.is_viewpoint_known = pose.has_value();
-  return {std::move(cloud), scan.counts};
+  return {{}, std::move(cloud), scan.counts};
 }
 
 void noteMissingNumbers(const std::map<std::uint64_t, std::size_t>& scans,

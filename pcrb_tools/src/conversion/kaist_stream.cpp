@@ -91,7 +91,8 @@ ConvertedScan mergePair(const KaistFrames& frames, const KaistScanSelector::Pair
                         pcrb::SensorScan left, pcrb::SensorScan right) {
   pcrb::PointCounts counts = left.counts;
   counts += right.counts;
-  return {pcrb::mergeScans({std::move(left), pair.T_world_vehicle_left, frames.T_vehicle_left},
+  return {{},
+          pcrb::mergeScans({std::move(left), pair.T_world_vehicle_left, frames.T_vehicle_left},
                            {std::move(right), pair.T_world_vehicle_right, frames.T_vehicle_right}),
           counts};
 }
