@@ -1,33 +1,21 @@
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/byte_order.hpp"
 #include "pcrb_core/io/number.hpp"
 
 namespace pcrb {
 namespace {
 
-/// An unsigned integer of `size` bytes on any processor.
-std::uint32_t loadUnsigned(const char* bytes, std::size_t size, bool big_endian) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i != size; ++i) {
-    value = value << 8 | static_cast<unsigned char>(bytes[big_endian ? i : size - 1 - i]);
-  }
-  return value;
-}
-
 /// Depth of a pixel in m, NaN where there is none: whatever is not in front of the camera.
 double loadDepth(const char* pixel, const DepthImage& image) {
   double depth = 0.0;
   if (image.format == DepthFormat::kUnsigned16) {
-    depth = loadUnsigned(pixel, 2, image.big_endian) / image.units_per_metre;
+    depth = static_cast<double>(loadUnsigned(pixel, 2, image.big_endian)) / image.units_per_metre;
   } else {
-    const std::uint32_t bits = loadUnsigned(pixel, 4, image.big_endian);
-    float metres = 0.0F;
-    std::memcpy(&metres, &bits, sizeof(metres));
-    depth = metres;
+    depth = loadFloat<float>(pixel, image.big_endian);
   }
   return depth > 0.0 ? depth : std::numeric_limits<double>::quiet_NaN();
 }

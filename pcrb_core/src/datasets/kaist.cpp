@@ -1,13 +1,12 @@
 #include "pcrb_core/datasets/kaist.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
 #include <iterator>
 #include <utility>
 
 #include "datasets/log_rows.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/byte_order.hpp"
 #include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/number.hpp"
 
@@ -16,15 +15,6 @@ namespace {
 
 constexpr std::size_t kRecordSize = 16;
 constexpr std::size_t kFewImpossible = 10;
-
-/// A little-endian float32 on any processor.
-float loadFloat(const char* bytes) {
-  std::uint32_t bits = 0;
-  for (int i = 3; i >= 0; --i) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
-  float value = 0.0F;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
-}
 
 /// Whether a lidar on a car can have given a point; points that are not finite count apart.
 bool isPossible(const Eigen::Vector3d& point, float intensity) {
@@ -66,8 +56,9 @@ SensorScan parseVelodyneScan(std::string_view bytes, OriginPoints origin, const 
   std::size_t impossible = 0;
   for (std::size_t at = 0; at != bytes.size(); at += kRecordSize) {
     const char* const record = bytes.data() + at;
-    const Eigen::Vector3d point(loadFloat(record), loadFloat(record + 4), loadFloat(record + 8));
-    impossible += isPossible(point, loadFloat(record + 12)) ? 0 : 1;
+    const Eigen::Vector3d point(loadFloat<float>(record), loadFloat<float>(record + 4),
+                                loadFloat<float>(record + 8));
+    impossible += isPossible(point, loadFloat<float>(record + 12)) ? 0 : 1;
     scan.add(point, origin);
   }
   const std::size_t records = bytes.size() / kRecordSize;

@@ -63,11 +63,9 @@ std::vector<std::size_t> shapeOf(std::string_view value) {
 std::optional<RecordField> typeOf(std::string_view text, bool& big_endian) {
   if (text.size() < 3) return std::nullopt;
   const auto size = parseUnsigned(text.substr(2));
-  const std::string_view kinds = "fiu";
-  const std::size_t least = text[1] == 'f' ? 4 : 1;
-  if (!size || *size < least || *size > 8 || kinds.find(text[1]) == std::string_view::npos) {
-    return std::nullopt;
-  }
+  const bool is_float = text[1] == 'f' && (size == 4U || size == 8U);
+  const bool is_integer = (text[1] == 'i' || text[1] == 'u') && size >= 1U && size <= 8U;
+  if (!is_float && !is_integer) return std::nullopt;
   big_endian |= text[0] == '>';
   return RecordField{0, text[1], *size};
 }

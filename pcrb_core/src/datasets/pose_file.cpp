@@ -26,7 +26,7 @@ class Rows {
 
   void read() {
     std::string_view line;
-    while (nextPoseRow(reader_, line)) {
+    while (reader_.nextDataRow(line)) {
       if (file_.format == PoseFormat::kLog) {
         readBlock(line);
       } else {
@@ -95,7 +95,7 @@ class Rows {
     }
     Numbers numbers;
     for (int row = 0; row < 4; ++row) {
-      if (!nextPoseRow(reader_, line)) reader_.fail("the end of the file", expected);
+      if (!reader_.nextDataRow(line)) reader_.fail("the end of the file", expected);
       const auto entries = wordsOf(line);
       require(entries.size() == 4, entries, line, expected);
       const Numbers some = requireFinite(reader_, entries, 0, 4, "a number");

@@ -8,14 +8,6 @@
 
 namespace pcrb {
 
-bool nextPoseRow(LineReader& reader, std::string_view& line) {
-  while (reader.nextRow(line)) {
-    line = trimmed(line);
-    if (line.front() != '#') return true;
-  }
-  return false;
-}
-
 std::vector<std::string_view> wordsOf(std::string_view line) {
   std::vector<std::string_view> words;
   if (line.find(',') == std::string_view::npos) {

@@ -9,9 +9,6 @@
 
 namespace pcrb {
 
-/// The next line that is neither blank nor a comment.
-bool nextPoseRow(LineReader& reader, std::string_view& line);
-
 /// Words of a line, by commas if it has any.
 std::vector<std::string_view> wordsOf(std::string_view line);
 

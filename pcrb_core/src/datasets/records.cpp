@@ -1,41 +1,25 @@
 #include "datasets/records.hpp"
 
 #include <cstdint>
-#include <cstring>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/byte_order.hpp"
 #include "pcrb_core/io/pcd.hpp"
 
 namespace pcrb {
 namespace {
-
-std::uint64_t loadBits(const char* bytes, std::size_t size, bool big_endian) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i != size; ++i) {
-    const std::size_t at = big_endian ? i : size - 1 - i;
-    bits = bits << 8U | static_cast<unsigned char>(bytes[at]);
-  }
-  return bits;
-}
-
-template <typename Float, typename Bits>
-double asFloat(std::uint64_t bits) {
-  const auto narrow = static_cast<Bits>(bits);
-  Float value = 0;
-  std::memcpy(&value, &narrow, sizeof(value));
-  return static_cast<double>(value);
-}
 
 bool isFloat(const RecordField& field) { return field.kind == 'f'; }
 
 }  // namespace
 
 double loadNumber(const char* record, const RecordField& field, bool big_endian) {
-  const std::uint64_t bits = loadBits(record + field.offset, field.size, big_endian);
+  const char* const bytes = record + field.offset;
   if (isFloat(field)) {
-    return field.size == 4 ? asFloat<float, std::uint32_t>(bits)
-                           : asFloat<double, std::uint64_t>(bits);
+    return field.size == 4 ? static_cast<double>(loadFloat<float>(bytes, big_endian))
+                           : loadFloat<double>(bytes, big_endian);
   }
+  const std::uint64_t bits = loadUnsigned(bytes, field.size, big_endian);
   const unsigned unused = 64U - 8U * static_cast<unsigned>(field.size);
   if (field.kind == 'i') {
     return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "datasets/pose_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
@@ -42,7 +41,7 @@ std::vector<TumImage> parseTumImageList(std::string_view text, const std::string
   std::vector<TumImage> images;
   LineReader reader(text, name);
   std::string_view line;
-  while (nextPoseRow(reader, line)) {
+  while (reader.nextDataRow(line)) {
     const Stamp stamp = requireStamp(reader, takeWord(line));
     const std::string_view path = takeWord(line);
     if (!trimmed(line).empty() || !staysBelow(path)) {

@@ -115,6 +115,14 @@ bool LineReader::nextRow(std::string_view& line) {
   return false;
 }
 
+bool LineReader::nextDataRow(std::string_view& line) {
+  while (nextRow(line)) {
+    line = trimmed(line);
+    if (line.front() != '#') return true;
+  }
+  return false;
+}
+
 void LineReader::fail(const std::string& found, const std::string& expected) const {
   throw InvalidFile(name_, line_number_, found, expected);
 }

@@ -219,6 +219,8 @@ TEST(CloudFile, ReadsArraysOfNumpy) {
   PCRB_EXPECT_ERROR(InvalidFile, parse(npy("'<f4'", "(2, 2)", "12345678"), "a.npy"),
                     "an array of shape '(2, 2)'");
   PCRB_EXPECT_ERROR(InvalidFile, parse(npy("'<i4'", "(2, 3)", "12345678"), "a.npy"), "'<i4'");
+  PCRB_EXPECT_ERROR(InvalidFile, parse(npy("'<f5'", "(1, 3)", "123456789012345"), "a.npy"),
+                    "'<f5'");
   PCRB_EXPECT_ERROR(InvalidFile, parse(npy("'<f4'", "(9, 3)", "12345678"), "a.npy"),
                     "is the file cut?");
   PCRB_EXPECT_ERROR(InvalidFile, parse("no array at all", "a.npy"), "another beginning");

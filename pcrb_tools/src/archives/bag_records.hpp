@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "pcrb_core/io/byte_order.hpp"
+
 namespace pcrb_tools {
 
 inline constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
@@ -35,11 +37,7 @@ struct BagRecord {
 /// A little-endian number in the first bytes of a text that has them.
 template <typename Number>
 Number littleEndian(std::string_view bytes) {
-  Number number = 0;
-  for (std::size_t i = sizeof(Number); i-- > 0;) {
-    number = static_cast<Number>(number << 8 | static_cast<unsigned char>(bytes[i]));
-  }
-  return number;
+  return static_cast<Number>(pcrb::loadUnsigned(bytes.data(), sizeof(Number)));
 }
 
 /// The records of a bag of ROS 1, by position; whatever they claim is checked against the file.

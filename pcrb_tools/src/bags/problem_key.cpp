@@ -101,10 +101,7 @@ ProblemKey readProblemKey(const std::string& path) {
   ProblemKey key;
   std::set<std::string> seen;
   std::string_view line;
-  while (reader.next(line)) {
-    if (pcrb::trimmed(line).empty() || line.front() == '#') continue;
-    takeLine(reader, line, seen, key);
-  }
+  while (reader.nextDataRow(line)) takeLine(reader, line, seen, key);
   if (seen.size() != kWords.size() - 1 || key.rows.empty()) {
     throw pcrb::InvalidFile(path, 0, "an incomplete key", kExpected);
   }

@@ -161,9 +161,8 @@ class OwnFiles {
     std::vector<pcrb::Stamp> stamps;
     pcrb::LineReader reader(text, path);
     std::string_view line;
-    while (reader.nextRow(line)) {
-      if (pcrb::trimmed(line).front() == '#') continue;
-      const auto stamp = pcrb::parseTimestamp(pcrb::trimmed(line));
+    while (reader.nextDataRow(line)) {
+      const auto stamp = pcrb::parseTimestamp(line);
       if (!stamp) reader.fail(pcrb::inQuotes(line), "a timestamp in seconds");
       stamps.push_back(*stamp);
     }

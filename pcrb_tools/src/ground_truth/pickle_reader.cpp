@@ -1,8 +1,7 @@
 #include "ground_truth/pickle_reader.hpp"
 
-#include <cstring>
-
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/byte_order.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
 
@@ -42,12 +41,7 @@ std::string_view PickleReader::takeLine() {
 }
 
 std::uint64_t PickleReader::unsignedOf(std::size_t size) {
-  std::uint64_t value = 0;
-  const std::string_view bytes = take(size);
-  for (std::size_t i = size; i-- > 0;) {
-    value = value << 8U | static_cast<unsigned char>(bytes[i]);
-  }
-  return value;
+  return pcrb::loadUnsigned(take(size).data(), size);
 }
 
 std::int64_t PickleReader::longOf(std::size_t size) {
@@ -55,15 +49,6 @@ std::int64_t PickleReader::longOf(std::size_t size) {
   if (size > 8) refuse("an integer of " + std::to_string(size) + " bytes", "8 at most");
   const auto unused = static_cast<unsigned>(64 - 8 * size);
   return static_cast<std::int64_t>(unsignedOf(size) << unused) >> unused;
-}
-
-double PickleReader::bigEndianDouble() {
-  const std::string_view bytes = take(8);
-  std::uint64_t bits = 0;
-  for (const char c : bytes) bits = bits << 8U | static_cast<unsigned char>(c);
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
 }
 
 double PickleReader::numberOfLine() {
@@ -156,7 +141,7 @@ void PickleReader::run(unsigned char opcode) {
     case 0x95:  // FRAME
       return void(take(8));
     case 'G':
-      return pushNumber(bigEndianDouble());
+      return pushNumber(pcrb::loadFloat<double>(take(8).data(), true));
     case 'J':
       return pushNumber(static_cast<std::int32_t>(unsignedOf(4)));
     case 'M':

@@ -41,7 +41,6 @@ class PickleReader {
   std::string_view takeLine();
   std::uint64_t unsignedOf(std::size_t size);
   std::int64_t longOf(std::size_t size);
-  double bigEndianDouble();
   double numberOfLine();
   std::uint64_t memoKeyOfLine();
 

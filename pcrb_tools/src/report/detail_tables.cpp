@@ -11,14 +11,6 @@
 namespace pcrb_tools {
 namespace {
 
-Json optionalNumber(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
-}
-
-Json quantileOf(const std::vector<double>& sorted, double q) {
-  return sorted.empty() ? Json(nullptr) : Json(pcrb::quantile(sorted, q));
-}
-
 std::vector<double> sortedTimes(const Problems& problems,
                                 std::optional<double> ScoredProblem::*member, bool new_target) {
   std::vector<double> times;
@@ -163,11 +155,10 @@ Table problemTable(const Section& section) {
     if (degrees) *degrees /= pcrb::kRadiansPerDegree;
     table.rows.push_back(
         {entry->method, sequenceName(section, problem->key), problem->error,
-         pcrb::toString(problem->outcome), optionalNumber(problem->initial_misalignment),
-         optionalNumber(problem->translation_error), optionalNumber(degrees),
-         optionalNumber(problem->overlap), optionalNumber(problem->runtime),
-         problem->judged ? number(problem->judged->nees) : Json(nullptr), problem->key.problem_id,
-         problem->source, problem->target, problem->reason});
+         pcrb::toString(problem->outcome), number(problem->initial_misalignment),
+         number(problem->translation_error), number(degrees), number(problem->overlap),
+         number(problem->runtime), problem->judged ? number(problem->judged->nees) : Json(nullptr),
+         problem->key.problem_id, problem->source, problem->target, problem->reason});
   }
   return table;
 }

@@ -151,9 +151,6 @@ Pivot makePivot(const Section& section, const Table& scores, const Table& compar
 }
 
 Json toJson(const Pivot& pivot) {
-  const auto orNull = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
-  };
   Json list = Json::array();
   for (const Pivot::Row& row : pivot.rows) {
     Json json;
@@ -164,13 +161,13 @@ Json toJson(const Pivot& pivot) {
       Json described = nullptr;
       if (cell) {
         described = {{"median", cell->median},
-                     {"low", orNull(cell->low)},
-                     {"high", orNull(cell->high)},
+                     {"low", number(cell->low)},
+                     {"high", number(cell->high)},
                      {"mark", toString(cell->mark)}};
       }
       json["cells"].push_back(described);
     }
-    json["untouched"] = orNull(row.untouched);
+    json["untouched"] = number(row.untouched);
     list.push_back(json);
   }
   return list;

@@ -153,8 +153,7 @@ Json describeWorst(const Section& section, const Entry& entry, const ScoredProbl
   json["sequence"] = sequenceName(section, problem.key);
   json["problem"] = problem.key.problem_id;
   json["error"] = problem.error;
-  json["misalignment"] =
-      problem.initial_misalignment ? Json(*problem.initial_misalignment) : Json(nullptr);
+  json["misalignment"] = number(problem.initial_misalignment);
   json["outcome"] = pcrb::toString(problem.outcome);
   json["command"] = entry.info ? Json(replayCommand(entry, problem)) : Json(nullptr);
   return json;

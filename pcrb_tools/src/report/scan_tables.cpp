@@ -66,10 +66,6 @@ Json processorShare(const Entry& entry) {
   return used > 0.0 && elapsed > 0.0 ? Json(used / elapsed) : Json(nullptr);
 }
 
-Json quantileOrNull(const std::vector<double>& sorted, double q) {
-  return sorted.empty() ? Json(nullptr) : Json(pcrb::quantile(sorted, q));
-}
-
 /// The error that a problem had after a scan: of the newest answer until then.
 std::optional<double> errorAfter(const Scans& scans, std::uint32_t scan) {
   std::optional<double> error;
@@ -166,8 +162,7 @@ Table keepingUpTable(const Section& section) {
       if (times.sent == 0) continue;
       const bool is_total = selection->level == "total";
       table.rows.push_back({entry->method, selection->name, times.sent, times.unanswered,
-                            quantileOrNull(times.latencies, 0.5),
-                            quantileOrNull(times.latencies, 0.95),
+                            quantileOf(times.latencies, 0.5), quantileOf(times.latencies, 0.95),
                             is_total ? processorShare(*entry) : Json(nullptr)});
     }
   }

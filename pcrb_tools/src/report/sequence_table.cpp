@@ -25,7 +25,7 @@ std::vector<Json> sequenceRow(const Section& section, const Selection& selection
   std::vector<double> overlaps = overlapsOfProblems(section, selection);
   std::sort(overlaps.begin(), overlaps.end());
   for (const double q : {0.0, 0.5, 1.0}) {
-    row.push_back(overlaps.empty() ? Json(nullptr) : number(pcrb::quantile(overlaps, q)));
+    row.push_back(quantileOf(overlaps, q));
   }
   return row;
 }

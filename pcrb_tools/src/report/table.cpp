@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pcrb_core/evaluation/statistics.hpp"
 #include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/io/text.hpp"
@@ -102,7 +103,13 @@ std::string markdownEscaped(const std::string& text) {
   return escaped;
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(std::optional<double> value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json quantileOf(const std::vector<double>& sorted, double q) {
+  return sorted.empty() ? Json(nullptr) : number(pcrb::quantile(sorted, q));
+}
 
 std::string cellText(const Json& cell, Format format) {
   if (cell.is_null()) return "-";

@@ -45,7 +45,10 @@ class TableReader {
 };
 
 /// A finite number, else null.
-Json number(double value);
+Json number(std::optional<double> value);
+
+/// A quantile of ascending values; null of none.
+Json quantileOf(const std::vector<double>& sorted, double q);
 
 /// A cell as people read it, errors and times with three significant digits; `-` where there is no
 /// value.

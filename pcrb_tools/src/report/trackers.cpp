@@ -139,7 +139,7 @@ Json pathOf(const Tracker& tracker) {
   json["path"] = positionsOf(tracker.estimate);
   json["errors"] = Json::array();
   for (const TrackerScan& scan : tracker.scans) {
-    json["errors"].push_back({scan.time, scan.error ? Json(*scan.error) : Json(nullptr)});
+    json["errors"].push_back({scan.time, number(scan.error)});
   }
   return json;
 }

@@ -27,6 +27,9 @@ class LineReader {
   /// Takes the next line that has more than spaces and tabs in it; false behind the last one.
   bool nextRow(std::string_view& line);
 
+  /// The same of what is no comment, which begins with `#`; without blanks at its ends.
+  bool nextDataRow(std::string_view& line);
+
   /// Number of the line taken last, from 1; 0 before the first.
   std::size_t lineNumber() const { return line_number_; }
 
