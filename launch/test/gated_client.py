@@ -30,4 +30,5 @@ if __name__ == '__main__':
     run = Run(Client('/pcrb'))
     run.client.serve(run, limit=1)
     wait_until(lambda: os.path.exists(sys.argv[1]) or run.ended(), 'the gate opens', limit=float('inf'))
-    run.client.serve(run)
+    if not run.ended():
+        run.client.serve(run)
