@@ -62,12 +62,12 @@ std::vector<std::size_t> shapeOf(std::string_view value) {
 /// `<f4` and the like.
 std::optional<RecordField> typeOf(std::string_view text, bool& big_endian) {
   if (text.size() < 3) return std::nullopt;
-  const auto size = parseUnsigned(text.substr(2));
-  const bool is_float = text[1] == 'f' && (size == 4U || size == 8U);
-  const bool is_integer = (text[1] == 'i' || text[1] == 'u') && size >= 1U && size <= 8U;
+  const std::size_t size = parseUnsigned(text.substr(2)).value_or(0);
+  const bool is_float = text[1] == 'f' && (size == 4 || size == 8);
+  const bool is_integer = (text[1] == 'i' || text[1] == 'u') && size >= 1 && size <= 8;
   if (!is_float && !is_integer) return std::nullopt;
   big_endian |= text[0] == '>';
-  return RecordField{0, text[1], *size};
+  return RecordField{0, text[1], size};
 }
 
 /// The text between the next two quotes, which is taken away with all before it.
