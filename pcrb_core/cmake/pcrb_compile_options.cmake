@@ -30,10 +30,8 @@ function(pcrb_set_compile_options target)
   endif()
 endfunction()
 
-# The same for code that is compiled for longer than it runs, tests above all: most of what handles points is in other libraries.
-function(pcrb_set_quick_options target)
-  pcrb_set_compile_options(${target})
-  pcrb_set_unity_build(${target})
+# For code that is compiled for longer than it runs, tests above all: most of what handles points is in other libraries.
+function(pcrb_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
