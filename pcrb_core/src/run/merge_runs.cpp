@@ -10,6 +10,7 @@
 #include "pcrb_core/run/results_store.hpp"
 #include "pcrb_core/run/run_info.hpp"
 #include "pcrb_core/run/summary.hpp"
+#include "run/run_table.hpp"
 
 namespace pcrb {
 namespace {
@@ -61,10 +62,6 @@ void requireComplete(const ShardRun& part) {
                    ": start this shard again, it goes on where it stopped");
 }
 
-std::string inBackticksOrNothing(const std::optional<std::string>& value) {
-  return value ? "`" + *value + "`" : "nothing";
-}
-
 /// Compares each shard with all before it, so that clouds are compared among all that used them.
 RunInfo requireOneConfiguration(const std::vector<ShardRun>& parts) {
   RunInfo merged = parts.front().info;
@@ -72,8 +69,7 @@ RunInfo requireOneConfiguration(const std::vector<ShardRun>& parts) {
     std::string text;
     for (const auto& [parameter, here, there] :
          merged.differences(part->info, RunInfo::Scope::kShards)) {
-      text += "; " + parameter + ": " + inBackticksOrNothing(here) + " and " +
-              inBackticksOrNothing(there);
+      text += "; " + parameter + ": " + inBackticks(here) + " and " + inBackticks(there);
     }
     if (!text.empty()) {
       throw StoreError(part->name() + ": found another configuration than in " +

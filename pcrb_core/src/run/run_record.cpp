@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "pcrb_core/io/atomic_file.hpp"
+#include "run/run_table.hpp"
 
 namespace pcrb {
 
@@ -16,10 +17,6 @@ namespace {
 std::string hostName() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
-
-std::string inBackticks(const std::optional<std::string>& value) {
-  return value ? "`" + *value + "`" : "nothing";
 }
 
 /// A line for each difference between what a run has (here) and what it was asked for (there).

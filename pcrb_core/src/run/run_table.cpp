@@ -174,6 +174,10 @@ const RunTableRow kRunTableRows[] = {
 
 }  // namespace
 
+std::string inBackticks(const std::optional<std::string>& text) {
+  return text ? "`" + *text + "`" : "nothing";
+}
+
 const std::vector<RunTableRow>& runTableRows() {
   static const std::vector<RunTableRow> rows(std::begin(kRunTableRows), std::end(kRunTableRows));
   return rows;

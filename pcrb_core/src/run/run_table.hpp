@@ -36,6 +36,9 @@ struct NamedRunTableRows {
   void (*check)(const std::string&) = nullptr;  ///< @throws InvalidParameter
 };
 
+/// A text of the run table for messages; `nothing` where there is none.
+std::string inBackticks(const std::optional<std::string>& text);
+
 /// All rows of the first kind, and of the second.
 const std::vector<RunTableRow>& runTableRows();
 const std::vector<NamedRunTableRows>& namedRunTableRows();
