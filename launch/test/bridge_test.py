@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """An existing localization node scores through the bridge as its algorithm does as a client of its own."""
-import collections
 import os
 import sys
 
@@ -11,7 +10,7 @@ from localization_standins.algorithms import NdtLocalizer, ParticleLocalizer, Sm
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from pcrb_testing import run_info, select
-from pcrb_testing_bridge import BridgeTestCase
+from pcrb_testing_bridge import SCAN_PERIOD, BridgeTestCase
 
 DEVIATIONS = 0.2, 0.14  # m, rad
 COVARIANCE = np.diag(np.repeat(np.square(DEVIATIONS), 3))
@@ -27,15 +26,18 @@ class BridgeTest(BridgeTestCase):
         patient = {'answer_limit': 5.0, 'map_settle': 1.0, 'initialpose_settle': 0.5}  # on a busy machine, too, each is seen in its turn
         bridge = self.bridge(server, settle='nth', settle_count=updates, **{**patient, **parameters})
         rows = self.rows_of_bridge(server, bridge)
-        self.assertEqual(self.answers_used(server), {key: updates for key in rows})
-        self.assert_same_scores(rows, self.rows_of_algorithm(second(summary_hold_time=0.0), algorithm, updates, COVARIANCE), 0.05)
+        stamps = [self.stamps_of_answered(server, row) for row in server.rows()]
+        self.assertEqual([len(of_problem) for of_problem in stamps], [updates] * len(rows))
+        self.assert_same_scores(rows, self.rows_of_algorithm(second(summary_hold_time=0.0), algorithm, stamps, COVARIANCE), 0.05)
         return server, rows
 
-    def answers_used(self, server):
-        """Of each problem, the answers up to the one that counted: where others use the machine, too, a scan may have none."""
-        used = {row['problem_id']: row['scans_used'] for row in server.rows()}
-        scans = select(server.run, 'scan', 'SELECT * FROM scan WHERE answered_s IS NOT NULL AND NOT is_echo')
-        return collections.Counter(scan['problem_id'] for scan in scans if scan['scan'] <= used[scan['problem_id']])
+    @staticmethod
+    def stamps_of_answered(server, row):
+        """Of a problem's scans up to the one that counted, from its first: where others use the machine, too, one may have no
+        answer, and the node's next step is of twice the time."""
+        scans = select(server.run, 'scan', 'SELECT * FROM scan WHERE answered_s IS NOT NULL AND NOT is_echo ORDER BY scan')
+        return [SCAN_PERIOD * (scan['scan'] - 1) for scan in scans
+                if scan['problem_id'] == row['problem_id'] and scan['scan'] <= row['scans_used']]
 
     def test_an_ndt_localizer(self):
         server, rows = self.check('ndt', 'ndt_pose', NdtLocalizer, 3)

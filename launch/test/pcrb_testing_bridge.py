@@ -10,6 +10,7 @@ from nav_msgs.msg import Odometry
 from pcrb_testing import Child, Server, TestCase, executable, wait_until
 from sensor_msgs.msg import PointCloud2
 
+SCAN_PERIOD = 0.05  # s
 MOTION = maths.transform(maths.axis_angle([0.1, -0.3, 1], 0.05), [0.2, -0.1, 0.05])
 
 
@@ -50,7 +51,7 @@ class Bridge(Child):
             rospy.delete_param(name)
         topics = {f'{kind}_topic': f'{server.namespace}/robot/{kind}'
                   for kind in ('map', 'scan', 'initialpose', 'pose')}
-        fast = {'map_settle': 0.3, 'initialpose_settle': 0.05, 'scan_period': 0.05}
+        fast = {'map_settle': 0.3, 'initialpose_settle': 0.05, 'scan_period': SCAN_PERIOD}
         rospy.set_param(name, {**topics, **fast, **parameters})
         super().__init__([executable('pcrb_server', 'localization_bridge')], server.namespace)
 
@@ -104,14 +105,14 @@ class BridgeTestCase(TestCase):
         self.assert_ends_well(server)
         return {row['problem_id']: row for row in server.rows()}
 
-    def rows_of_algorithm(self, server, algorithm, updates, covariance):
-        """The same algorithm as a client of its own: initialised with the guess, given the scan so many times."""
+    def rows_of_algorithm(self, server, algorithm, stamps, covariance):
+        """The same algorithm as a client of its own: initialised with the guess, given each problem's scan at its stamps (s)."""
         def answer(client, problem):
             localizer = algorithm(maths.points_of(client.newest['target']))
-            localizer.initialise(maths.from_pose(problem.initial_guess), covariance)
             scan = maths.points_of(client.newest['source'])
-            for k in range(updates):
-                pose = localizer.update(scan, 0.05 * k)
+            localizer.initialise(maths.from_pose(problem.initial_guess), covariance)
+            for stamp in stamps[problem.index]:
+                pose = localizer.update(scan, stamp)
             client.submit(problem, maths.fill_pose(Pose(), pose))
         self.client(server).serve(server, answer)
         self.assert_ends_well(server)
