@@ -1,13 +1,16 @@
 """The bridge and the stand-ins as children of a test, and the stand-ins' algorithms as direct clients."""
 import shutil
 import time
+import xmlrpc.client
 
 import numpy as np
 import pcrb_testing_data as maths
+import rosgraph
 import rospy
 from geometry_msgs.msg import Pose, PoseStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
-from pcrb_testing import Child, Server, TestCase, executable, wait_until
+from pcrb_testing import Child, Launch, Server, TestCase, executable, wait_until
+from pcrb_testing import rows as rows_of
 from sensor_msgs.msg import PointCloud2
 
 SCAN_PERIOD = 0.05  # s
@@ -232,3 +235,29 @@ class AnsweringTestCase(BridgeTestCase):
             motion = np.linalg.matrix_power(MOTION, times(row))
             error = maths.error(self.data.source_points(problem), motion @ self.data.local_P(problem))
             self.assertAlmostEqual(row['error'] / error, 1, delta=1e-5, msg=row)
+
+
+class SupervisedTestCase(BridgeTestCase):
+    """Runs of localization.launch with a node of its own: NODE, unless a test gives another launch file."""
+
+    NODE = '/ndt_localizer'
+
+    def launch(self, **arguments):
+        defaults = {'root': self.data.root, 'run': self.path('run'), 'sequences': 'hall', 'time_limit': 30.0,
+                    'node_launch': 'localization_standins ndt_localizer.launch',
+                    'node_args': 'map_topic=/points_map scan_topic=/points_raw', 'map_topic': '/points_map',
+                    'scan_topic': '/points_raw', 'pose_topic': '/ndt_pose', 'settle': 'first'}
+        return self.start(Launch('localization.launch', **{**defaults, **arguments}))
+
+    def node_process(self):
+        """The process id of the node under test, None while it is not there."""
+        try:
+            return xmlrpc.client.ServerProxy(rosgraph.Master('/test').lookupNode(self.NODE)).getPid('/test')[2]
+        except (rosgraph.MasterException, OSError):
+            return None
+
+    def assert_finished(self, launch, least_replied):
+        launch.wait()
+        rows = rows_of(self.path('run'))
+        self.assert_rows_of(self.path('run'), self.data.of('local', 'hall'))
+        self.assertGreaterEqual([row['outcome'] for row in rows].count('replied'), least_replied, rows)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """pcrb probe: what a node takes and says becomes the recipe that fits; what cannot be told is said."""
+import concurrent.futures
 import os
 import signal
 import subprocess
@@ -31,15 +32,19 @@ class ProbeTest(TestCase):
         text = ' '.join(line.lstrip('# ') for line in result.stdout.splitlines()) + result.stderr
         return result.returncode, yaml.safe_load(result.stdout), text
 
+    def probes(self, arguments):
+        """Several at once, each with a master of its own: a probe waits for most of its time."""
+        with concurrent.futures.ThreadPoolExecutor(3) as pool:
+            return list(pool.map(lambda words: self.probe(*words), arguments))
+
     def test_topics_links_and_the_rule_are_found_out(self):
-        _, ndt, text = self.probe('ndt')
+        (_, ndt, text), (_, particle, _), (_, smoothing, of_smoothing) = self.probes(
+            [('ndt',), ('particle',), ('smoothing', '--output', self.path('recipe.yaml'))])
         self.assertEqual(ndt, {'map_topic': '/map_cloud', 'scan_topic': '/scan_cloud', 'pose_topic': '/ndt_pose', 'settle': 'first'})
         self.assertIn('10 of 10 scans were answered', text)
-        _, particle, _ = self.probe('particle')
         self.assertEqual((particle['pose_topic'], particle['tf_odom_base']), ('tf', 'dynamic'))
-        _, smoothing, text = self.probe('smoothing', '--output', self.path('recipe.yaml'))
         self.assertEqual((smoothing['pose_topic'], smoothing['settle']), ('/odom', 'stable'))
-        self.assertIn('its first answer repeats the initial pose', text)
+        self.assertIn('its first answer repeats the initial pose', of_smoothing)
         with open(self.path('recipe.yaml'), encoding='utf-8') as file:
             self.assertEqual(yaml.safe_load(file), smoothing)
 
@@ -54,8 +59,8 @@ class ProbeTest(TestCase):
                     'silent': ({}, r'the node answered none of ten scans'), 'crash': ({}, 'the node died during the probe'),
                     'owner': ({}, 'another node publishes /map_cloud, which the bridge does'),
                     'velocity': ({'settle': 'first'}, 'a motion model takes the correction for motion')}
-        for manner, (parameters, words) in expected.items():
-            _, found, text = self.probe('ill_mannered', '--node-args', f'manner={manner}')
+        probed = self.probes([('ill_mannered', '--node-args', f'manner={manner}') for manner in expected])
+        for (manner, (parameters, words)), (_, found, text) in zip(expected.items(), probed):
             self.assertIn(words, text, manner)
             for name, value in parameters.items():
                 self.assertEqual(found.get(name), value, text)

@@ -1,68 +1,25 @@
 #!/usr/bin/env python3
-"""localization.launch with a node that dies, hangs, or is started anew on purpose."""
+"""localization.launch with a node that is started anew on purpose, or cannot be started; node_supervisor alone."""
 import os
 import re
-import signal
 import subprocess
 import sys
-import xmlrpc.client
 
-import rosgraph
 import rospkg
 import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pcrb_testing import Child, Launch, executable, rows, run_info, wait_until
-from pcrb_testing_bridge import BridgeTestCase
-
-NODE = '/ndt_localizer'
+from pcrb_testing import Child, executable, rows, run_info, wait_until
+from pcrb_testing_bridge import SupervisedTestCase
 
 
-def node_process():
-    """The process id of the node under test, None while it is not there."""
-    try:
-        return xmlrpc.client.ServerProxy(rosgraph.Master('/test').lookupNode(NODE)).getPid('/test')[2]
-    except (rosgraph.MasterException, OSError):
-        return None
-
-
-class SupervisorTest(BridgeTestCase):
-
-    def launch(self, **arguments):
-        defaults = {'root': self.data.root, 'run': self.path('run'), 'sequences': 'hall', 'time_limit': 30.0,
-                    'node_launch': 'localization_standins ndt_localizer.launch',
-                    'node_args': 'map_topic=/points_map scan_topic=/points_raw', 'map_topic': '/points_map',
-                    'scan_topic': '/points_raw', 'pose_topic': '/ndt_pose', 'settle': 'first'}
-        return self.start(Launch('localization.launch', **{**defaults, **arguments}))
-
-    def rows_at_least(self, count):
-        return wait_until(lambda: len(rows(self.path('run'))) >= count and rows(self.path('run')), f'{count} results')
-
-    def assert_finished(self, launch, least_replied):
-        launch.wait()
-        self.assert_rows_of(self.path('run'), self.data.of('local', 'hall'))
-        outcomes = [row['outcome'] for row in rows(self.path('run'))]
-        self.assertGreaterEqual(outcomes.count('replied'), least_replied, rows(self.path('run')))
-
-    def disturbed(self, number):
-        """A run whose node gets a signal after its first result, when others are due; ended well, with at most two problems lost."""
-        launch = self.launch(settle='nth', bridge_parameters=self.write('slow.yaml', 'settle_count: 20\n'), time_limit=10.0)
-        self.rows_at_least(1)
-        os.kill(wait_until(node_process, 'the node is there'), number)
-        self.assert_finished(launch, len(self.data.of('local', 'hall')) - 2)
-        return launch
-
-    def test_a_node_that_dies_is_started_anew(self):
-        self.assertIn('it is started anew', self.disturbed(signal.SIGKILL).output())
-
-    def test_a_node_that_hangs_is_started_anew(self):
-        self.assertIn('the node under test hangs', self.disturbed(signal.SIGSTOP).output())
+class SupervisorTest(SupervisedTestCase):
 
     def processes(self, launch):
         """The processes that the node under test was, as roslaunch says, when the run has ended."""
         launch.wait()
-        return set(re.findall(rf'process\[{NODE[1:]}-\d+\]: started with pid \[(\d+)\]', launch.output()))
+        return set(re.findall(rf'process\[{self.NODE[1:]}-\d+\]: started with pid \[(\d+)\]', launch.output()))
 
     def test_a_node_may_be_started_anew_for_each_target(self):
         launch = self.launch(restart='target')
@@ -75,25 +32,6 @@ class SupervisorTest(BridgeTestCase):
             launch = self.launch(run=self.path(name), subset=3, **how)
             self.assertEqual(len(self.processes(launch)), 3, name)
             self.assertEqual([row['outcome'] for row in rows(self.path(name))], ['replied'] * 3)
-
-    def assert_every_problem_fails(self, **arguments):
-        """Whatever the node dies of."""
-        file = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'crashing_localizer.launch')
-        robot = {f'{topic}_topic': f'/{topic}' for topic in ('map', 'scan')}
-        launch = self.launch(node_launch=file, **robot, **arguments)
-        launch.wait()
-        self.assertEqual([(row['outcome'], row['reason']) for row in rows(self.path('run'))],
-                         [('failed', 'the node under test left while it had the problem')] * arguments['subset'],
-                         launch.output())
-
-    def test_a_node_that_dies_of_every_scan_costs_its_problems_and_not_the_run(self):
-        self.assert_every_problem_fails(node_args='at=scan', subset=4)
-
-    def test_a_node_that_dies_of_every_initial_pose_does_so_too_beside_another_that_stays(self):
-        self.assert_every_problem_fails(node_args='at=initialpose beside=true', subset=2)
-
-    def test_so_does_a_localizer_behind_a_filter_of_its_scans(self):
-        self.assert_every_problem_fails(node_args='at=initialpose filtered=true', subset=2)
 
     def test_a_node_that_does_not_come_ends_the_launch_when_its_limit_is_up(self):
         launch = self.launch(node_launch='', node_args='', connect_limit=1)
@@ -159,10 +97,10 @@ class SupervisorTest(BridgeTestCase):
         rospy.set_param('/orphan/node_supervisor', {'launch': 'localization_standins ndt_localizer.launch'})
         supervisor = executable('pcrb_server', 'node_supervisor')
         shell = self.start(Child(['sh', '-c', f'{supervisor} & wait'], '/orphan'))
-        wait_until(node_process, 'the node is there')
+        wait_until(self.node_process, 'the node is there')
         shell.process.kill()
         wait_until(lambda: 'the process that started node_supervisor has ended' in shell.output(), 'it says so')
-        wait_until(lambda: node_process() is None, 'the node is gone')
+        wait_until(lambda: self.node_process() is None, 'the node is gone')
 
 
 if __name__ == '__main__':
