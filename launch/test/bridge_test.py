@@ -23,7 +23,7 @@ class BridgeTest(BridgeTestCase):
         first, second = self.twin_servers()
         server = first()
         self.standin(server, name, answers)
-        patient = {'answer_limit': 5.0, 'map_settle': 1.0, 'initialpose_settle': 0.5}  # on a busy machine, too, each is seen in its turn
+        patient = {'answer_limit': 5.0, 'map_settle': 1.0, 'initialpose_settle': 1.0}  # on a busy machine, too, each is seen in its turn
         bridge = self.bridge(server, settle='nth', settle_count=updates, **{**patient, **parameters})
         rows = self.rows_of_bridge(server, bridge)
         stamps = [self.stamps_of_answered(server, row) for row in server.rows()]

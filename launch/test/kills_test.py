@@ -196,6 +196,8 @@ class KillsTest(BridgeTestCase):
             count = len(server.rows()) + moments.randint(0, 1)
             end = time.monotonic() + 20
             wait_until(lambda c=count, e=end: len(server.rows()) >= c or time.monotonic() > e, 'some more problems are done')
+            if bridge.ended():
+                break
             bridge.kill()
             kills += 1
             bridge = self.bridge(server)

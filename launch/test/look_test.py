@@ -18,7 +18,7 @@ from sensor_msgs.msg import Image
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from pcrb_testing import Child, TestCase, executable, wait_until
-from pcrb_testing_screen import Screen, count, require_screen, wait_for_colors
+from pcrb_testing_screen import Screen, count, require_screen, started_and_seen
 from pcrb_testing_wait import LIMIT
 
 WHITE = (255, 255, 255)  # of texts
@@ -63,23 +63,11 @@ class LookTest(TestCase):
         self.addCleanup(replay.interrupt)
 
     def look(self, configuration, background, shown, hidden):
-        """Starts rviz with some topics off; the part of the picture that it draws, once the others are seen.
-
-        It is started once more if it shows nothing: that it misses latched messages was seen once in CI, and not in 750
-        starts of one configuration here.
-        """
+        """Starts rviz with some topics off; the part of the picture that it draws, once the others are seen."""
         off = [f'{topic}:=/nowhere{topic}' for topic in hidden]
         command = ['rviz', '-s', '', '-d', rviz_configuration(configuration), *off]
-        for is_last in False, True:
-            rviz = self.start(Child(command, HOME=self.folder, **self.screen.environment()))
-            try:
-                picture = wait_for_colors(self.screen, rviz, background, list(shown.values()), LIMIT / 2)
-                break
-            except AssertionError as error:
-                if is_last:
-                    raise
-                print(error, flush=True)
-                rviz.kill()
+        rviz, picture = started_and_seen(lambda: self.start(Child(command, HOME=self.folder, **self.screen.environment())), Child.kill,
+                                         self.screen, background, list(shown.values()))
         if os.environ.get('PCRB_PICTURES'):
             names = '_'.join(topic.rpartition('/')[2] for topic in shown)
             self.screen.save(os.path.join(os.environ['PCRB_PICTURES'], f'{configuration}_{names}.ppm'))
@@ -115,9 +103,16 @@ class LookTest(TestCase):
         self.run_of_guesses()
         self.replay(run=self.path('run'), order='worst')
         background, topics = roles('problems')
-        look = self.start(Child([executable('pcrb_tools', 'look'), rviz_configuration('problems')], HOME=self.folder,
-                                TMPDIR=self.folder, **self.screen.environment()))
-        panel = rospy.wait_for_message('/pcrb/panel', Image, 60)
+        command = [executable('pcrb_tools', 'look'), rviz_configuration('problems')]
+
+        def interrupt(look):
+            look.interrupt()
+            look.wait()
+
+        look, _ = started_and_seen(
+            lambda: self.start(Child(command, HOME=self.folder, TMPDIR=self.folder, **self.screen.environment())), interrupt,
+            self.screen, background, [topics['/pcrb/source_aligned']])
+        panel = rospy.wait_for_message('/pcrb/panel', Image, LIMIT)
         pixels = np.frombuffer(panel.data, np.uint8).reshape(panel.height, panel.width, 3)
         for role_color in topics.values():
             self.assertGreater((pixels == role_color).all(axis=2).sum(), 100, role_color)
@@ -126,8 +121,7 @@ class LookTest(TestCase):
             distance = yaml.safe_load(file)['Visualization Manager']['Views']['Current']['Distance']
         extent = np.ptp(self.data.clouds['hall', maths.SEQUENCES['hall'][0]], axis=0).max()
         self.assertTrue(0.5 * extent < distance < 2.5 * extent, f'{distance} m of {extent} m')
-        wait_for_colors(self.screen, look, background, [topics['/pcrb/source_aligned']])
-        look.interrupt()
+        interrupt(look)
 
     def test_a_localization_node(self):
         self.run_of_guesses(presentation='localization')

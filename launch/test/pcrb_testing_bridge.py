@@ -113,8 +113,9 @@ class BridgeTestCase(TestCase):
         def answer(client, problem):
             localizer = algorithm(maths.points_of(client.newest['target']))
             scan = maths.points_of(client.newest['source'])
-            localizer.initialise(maths.from_pose(problem.initial_guess), covariance)
-            for stamp in stamps[problem.index]:
+            of_problem = stamps[problem.index]
+            localizer.initialise(maths.from_pose(problem.initial_guess), covariance, of_problem[0])
+            for stamp in of_problem:
                 pose = localizer.update(scan, stamp)
             client.submit(problem, maths.fill_pose(Pose(), pose))
         self.client(server).serve(server, answer)

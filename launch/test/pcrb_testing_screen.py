@@ -55,6 +55,22 @@ def count(picture, color):
     return int((picture == color).all(axis=2).sum())
 
 
+def started_and_seen(start, end, screen, background, colors):
+    """A program that start() starts, and the part of the screen with that background, once it shows all the colours.
+
+    end(program) ends it, and it is started once more, if it shows nothing: that rviz misses latched messages was seen once in CI, and not in 750 starts
+    of one configuration here.
+    """
+    program = start()
+    try:
+        return program, wait_for_colors(screen, program, background, colors, LIMIT / 2)
+    except AssertionError as error:
+        print(error, flush=True)
+    end(program)
+    program = start()
+    return program, wait_for_colors(screen, program, background, colors)
+
+
 def wait_for_colors(screen, program, background, colors, limit=LIMIT):
     """The part of the screen with that background, once the program shows all the colours; it must not end before."""
     at_least = 10

@@ -252,7 +252,7 @@ class ReplayTest(TestCase):
         wait_until(lambda: len(self.viewer.of('scan')) == replay.output().count('/3 kitchen'), 'all scenes are seen')
         before = len(self.viewer.of('scan'))
         self.step('scan')
-        self.assertEqual(len(self.viewer.of('scan')), before + 1)
+        self.assertIn(len(self.viewer.of('scan')) - before, (1, 2), 'that one, and one that was being read when it paused')
         replay.interrupt()
         self.assert_ends_well(replay)
 

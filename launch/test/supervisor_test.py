@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """localization.launch with a node that is started anew on purpose, or cannot be started; node_supervisor alone."""
+import contextlib
 import os
 import re
+import sqlite3
 import subprocess
 import sys
 
@@ -34,9 +36,9 @@ class SupervisorTest(SupervisedTestCase):
             self.assertEqual([row['outcome'] for row in rows(self.path(name))], ['replied'] * 3)
 
     def test_a_node_that_does_not_come_ends_the_launch_when_its_limit_is_up(self):
-        launch = self.launch(node_launch='', node_args='', connect_limit=1)
+        launch = self.launch(node_launch='', node_args='', connect_limit=10)
         launch.wait()
-        self.assertRegex(launch.output(), r'within 1 s \(~connect_limit; .*/pcrb/localization_bridge')
+        self.assertRegex(launch.output(), r'within 10 s \(~connect_limit; .*/pcrb/localization_bridge')
 
     def test_a_launch_file_that_fails_at_once_ends_the_whole_launch(self):
         for arguments, reason in (
@@ -70,6 +72,8 @@ class SupervisorTest(SupervisedTestCase):
         kinds = [' '.join(line.split()[:3]) for line in noted if line.startswith('node ')]
         for kind in ('node file mine.launch:', 'node file ndt_localizer.launch:', 'node program localization_standins/ndt_localizer:'):
             self.assertIn(kind, kinds)
+        with contextlib.closing(sqlite3.connect(os.path.join(self.path('run'), 'results.sqlite'))) as store, store:
+            store.execute('DELETE FROM result WHERE source = (SELECT MIN(source) FROM result)')  # so that it has something to go on with
         self.assertRegex(launch(steps=30), r'client_parameters: the run has `node file mine\.launch: [0-9a-f]{16}, node '
                          r'/ndt_localizer/steps: 20`, asked for `node file mine\.launch: [0-9a-f]{16}, node /ndt_localizer/steps: 30`')
         self.assertNotIn('client_parameters: ', launch(steps=20))

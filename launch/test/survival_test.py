@@ -102,6 +102,7 @@ class SurvivalTest(TestCase):
             server.kill()
             server = self.start(server.again())
         self.assert_ends_well(client)
+        server.wait_for_output(f'{len(self.problems)}/{len(self.problems)} problems')
         server.interrupt()
         self.assert_ends_well(server)
         self.assert_rows_of(server.run, self.problems)

@@ -16,7 +16,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
 from look_test import roles
 from pcrb_testing import Child, TestCase, executable, rows
-from pcrb_testing_screen import Screen, require_screen, wait_for_colors
+from pcrb_testing_screen import Screen, require_screen, started_and_seen
 
 SETUP = os.path.realpath(os.path.join(os.path.dirname(executable('pcrb_tools', 'report')), '..', '..', 'setup.bash'))
 CENTER = '''
@@ -120,13 +120,17 @@ pcrb report "runs/my icp" --output report --no-figures
             command = html.unescape(re.search('<code>(pcrb replay .*?)</code>', file.read())[1])
         os.mkdir(self.path('screen'))
         screen = self.start(Screen(self.path('screen')))
-        replay = self.shell(f'exec {command}', **screen.environment())
         worst = max(self.errors('runs', 'my icp').items(), key=lambda entry: entry[1])
-        replay.wait_for_output(f'1/1 rooms/hall local {worst[0]}: error {worst[1]:.3g} ')
         background, topics = roles('problems')
-        wait_for_colors(screen, replay, background, [topics['/pcrb/source_aligned']])
-        os.killpg(replay.process.pid, signal.SIGINT)  # Ctrl-C, which ends rviz and the master, too
-        replay.wait()
+
+        def interrupt(replay):
+            os.killpg(replay.process.pid, signal.SIGINT)  # Ctrl-C, which ends rviz and the master, too
+            replay.wait()
+
+        replay, _ = started_and_seen(lambda: self.shell(f'exec {command}', **screen.environment()), interrupt,
+                                     screen, background, [topics['/pcrb/source_aligned']])
+        replay.wait_for_output(f'1/1 rooms/hall local {worst[0]}: error {worst[1]:.3g} ')
+        interrupt(replay)
 
     def test_from_a_package_to_a_red_and_a_green_ci(self):
         ci = '''

@@ -25,7 +25,7 @@ function(pcrb_set_compile_options target)
   endif()
   if(PCRB_SANITIZE)
     target_compile_options(${target} PRIVATE
-      -fsanitize=${PCRB_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+      -fsanitize=${PCRB_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
     target_link_options(${target} PUBLIC -fsanitize=${PCRB_SANITIZE})
   endif()
 endfunction()

@@ -1,5 +1,6 @@
 """pcrb run, localize and replay: launch files with a master of their own, unless the current one is wanted."""
 import csv
+import contextlib
 import dataclasses
 import glob
 import json
@@ -221,8 +222,9 @@ class Replay:
             words += ['run:=' + os.path.abspath(run_folder(values)), *([f'sequences:={sequences}'] if sequences else [])]
         else:
             words.append(f'sequence:={sequences}')
-        own = ['-p', str(free_port())] if values['master'] == 'own' else []
-        return run_program([which('roslaunch'), *own, 'pcrb_launch', 'replay.launch', *words])
+        with reserved_port() as port:
+            own = ['-p', str(port)] if values['master'] == 'own' else []
+            return run_program([which('roslaunch'), *own, 'pcrb_launch', 'replay.launch', *words])
 
 
 def run_folder(values):
@@ -230,10 +232,13 @@ def run_folder(values):
     return os.path.join(values['run'], values['method'] or '')
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(('127.0.0.1', 0))
-        return probe.getsockname()[1]
+@contextlib.contextmanager
+def reserved_port():
+    """A port that the system gives to no other process that asks for any. A master, which binds it by its number, gets it."""
+    with socket.socket() as holder:
+        holder.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        holder.bind(('127.0.0.1', 0))
+        yield holder.getsockname()[1]
 
 
 def which(name):

@@ -14,7 +14,7 @@ import tempfile
 
 import probe_recipe
 import recipes
-from benchmarking import free_port, which
+from benchmarking import reserved_port, which
 from options import Option
 from programs import NotBuilt, program
 from words import WORDS
@@ -88,7 +88,7 @@ def launch_words(values):
 
 def start_master(stack):
     """A roscore on a free port, as environment. It is a roslaunch, which guard_launch gives more time than a roscore has."""
-    port = free_port()
+    port = stack.enter_context(reserved_port())
     which('roslaunch')
     environment = {'ROS_MASTER_URI': f'http://127.0.0.1:{port}', 'ROS_IP': '127.0.0.1'}
     start(stack, ['roslaunch', '--core', '-p', str(port)], subprocess.DEVNULL, environment)

@@ -18,7 +18,7 @@ namespace {
 constexpr double kSupervisorLimit = 60.0;  // s for the supervisor to come up
 constexpr double kQuestionLimit = 0.1;     // s to find out whether there is one
 constexpr double kLifeLimit = 2.0;  // s for a node that did not answer a problem to show life
-constexpr double kPidLimit = 2.0;   // s for a node to say which process it is
+constexpr double kPidLimit = 5.0;   // s for a node to say which process it is
 
 bool isHere(const std::string& host) {
   std::array<char, 256> name{};

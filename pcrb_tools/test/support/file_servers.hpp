@@ -16,6 +16,7 @@ namespace pcrb_test {
 class FileServers {
  public:
   explicit FileServers(const std::string& folder) {
+    setenv("no_proxy", "127.0.0.1", 1);
     const std::string script = PCRB_TOOLS_FOLDER "/test/support/file_servers.py";
     std::array<int, 2> to_child{};
     std::array<int, 2> from_child{};

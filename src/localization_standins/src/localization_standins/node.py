@@ -68,6 +68,7 @@ class Node:
         rospy.Subscriber('scan_cloud', PointCloud2, self.take_scan, queue_size=1, buff_size=1 << 26)
 
     def take_map(self, cloud):
+        self.algorithm = None  # the former map answers no scan of this one
         self.algorithm = self.make_algorithm(points_of(cloud))
         self.is_initialised = False
 
