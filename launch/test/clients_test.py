@@ -24,7 +24,7 @@ class ClientsTest(TestCase):
         return self.start(Child([executable('pcrb_tools', 'registration_node')], server.namespace))
 
     def test_a_client_that_dies_and_comes_back_costs_at_most_the_problem_in_flight(self):
-        data = maths.make_data_set(self.path('large'), points=8000, perturbations=50)  # all are not done before the client dies
+        data = maths.make_data_set(self.path('large'), points=8000, perturbations=28)  # all are not done before the client dies
         server = self.server(data, time_limit=15.0)
         client = self.registration_node(server)
         wait_until(lambda: len(server.rows()) >= 3, 'three problems are done')
