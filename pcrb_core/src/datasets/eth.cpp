@@ -9,6 +9,7 @@
 #include "datasets/log_rows.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {
@@ -112,15 +113,11 @@ std::uint64_t requireScanNumber(const LineReader& reader, double number) {
 
 std::optional<std::uint64_t> numberBetween(std::string_view text, std::string_view prefix,
                                            std::string_view suffix) {
-  if (text.size() <= prefix.size() + suffix.size() || text.substr(0, prefix.size()) != prefix ||
-      text.substr(text.size() - suffix.size()) != suffix) {
+  if (text.size() <= prefix.size() + suffix.size() || !startsWith(text, prefix) ||
+      !endsWith(text, suffix)) {
     return std::nullopt;
   }
   return parseUnsigned(text.substr(prefix.size(), text.size() - prefix.size() - suffix.size()));
-}
-
-bool startsWith(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
 }
 
 bool isNamedAfter(std::string_view file_name, const EthSequence& sequence) {

@@ -7,6 +7,7 @@
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/csv.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {
@@ -40,7 +41,7 @@ bool NamedColumns::hasMatrix(const std::string& prefix) const {
 bool NamedColumns::next() {
   do {
     if (!nextCsvRow(reader_, fields_)) return false;
-  } while (fields_.front().substr(0, 1) == "#");
+  } while (startsWith(fields_.front(), "#"));
   if (fields_.size() >= names_.size()) return true;
   reader_.fail(
       std::to_string(fields_.size()) + " fields, the first is " + inQuotes(fields_.front()),

@@ -51,7 +51,7 @@ std::string_view valueOf(std::string_view header, const std::string& key, const 
 std::vector<std::size_t> shapeOf(std::string_view value) {
   std::vector<std::string_view> words;
   std::vector<std::size_t> shape;
-  if (value.substr(0, 1) != "(") return shape;
+  if (!startsWith(value, "(")) return shape;
   splitAt(',', value.substr(1, value.find(')') - 1), words);
   for (const std::string_view word : words) {
     if (const auto number = parseUnsigned(word)) shape.push_back(*number);
@@ -89,7 +89,7 @@ RecordLayout recordsLayout(std::string_view descr, const std::string& name) {
   while (const auto field_name = takeQuotedText(descr)) {
     const std::string_view type_name = takeQuotedText(descr).value_or("");
     const auto padding =
-        type_name.substr(0, 2) == "|V" ? parseUnsigned(type_name.substr(2)) : std::nullopt;
+        startsWith(type_name, "|V") ? parseUnsigned(type_name.substr(2)) : std::nullopt;
     const auto type = typeOf(type_name, big_endian);
     if (!type && !(padding && *padding < kLongestRow)) {
       throw InvalidFile(name, 0, "the type of the field " + inQuotes(*field_name), kNpyExpected);
@@ -151,7 +151,7 @@ SensorScan parseNpy(std::string_view bytes, OriginPoints origin, const std::stri
   const std::string_view descr = valueOf(parts.header, "descr", name);
   const std::string_view shape_text = valueOf(parts.header, "shape", name);
   std::vector<std::size_t> shape = shapeOf(shape_text);
-  if (descr.substr(0, 1) == "[") {
+  if (startsWith(descr, "[")) {
     return readRecords(parts.data, product(shape, name), recordsLayout(descr, name), origin, name);
   }
   if (shape.size() < 2 || shape.size() > 3 || shape.back() < 3 || shape.back() > kLongestRow) {
@@ -161,7 +161,7 @@ SensorScan parseNpy(std::string_view bytes, OriginPoints origin, const std::stri
   }
   const RecordLayout layout = rowsLayout(descr, shape.back(), name);
   shape.pop_back();
-  const bool by_columns = valueOf(parts.header, "fortran_order", name).substr(0, 4) == "True";
+  const bool by_columns = startsWith(valueOf(parts.header, "fortran_order", name), "True");
   if (by_columns && shape.size() > 1) {
     throw InvalidFile(name, 0, "three axes in Fortran's order", kNpyExpected);
   }

@@ -6,6 +6,7 @@
 #include "datasets/named_columns.hpp"
 #include "datasets/pose_rows.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/transform.hpp"
 
 namespace pcrb {
@@ -22,7 +23,7 @@ struct PlainName {
 };
 
 void replaceStart(std::string& text, std::string_view start, std::string_view by) {
-  if (text.compare(0, start.size(), start) == 0) text = std::string(by) + text.substr(start.size());
+  if (startsWith(text, start)) text = std::string(by) + text.substr(start.size());
 }
 
 /// The last parts of a message's path, as the short name that they stand for.
@@ -114,7 +115,7 @@ class ColumnReader {
       columns_.reader().fail("the columns " + joined(columns_.names()), kExpectedColumns);
     }
     for (const char* angle : {"roll", "pitch", "yaw"}) {
-      radians_[angle] = has(angle) && unitIn(angle).substr(0, 3) == "deg" ? kRadiansPerDegree : 1.0;
+      radians_[angle] = has(angle) && startsWith(unitIn(angle), "deg") ? kRadiansPerDegree : 1.0;
     }
     chooseKey();
   }

@@ -7,6 +7,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {
@@ -26,7 +27,7 @@ struct Decimal {
 };
 
 std::string_view withoutPlus(std::string_view text) {
-  return text.substr(0, 1) == "+" ? text.substr(1) : text;
+  return startsWith(text, "+") ? text.substr(1) : text;
 }
 
 std::optional<Decimal> takeDecimal(std::string_view text) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pcrb_core/io/text.hpp"
+
 namespace pcrb {
 namespace {
 
@@ -26,7 +28,7 @@ std::string takeQuoted(LineReader& lines, std::string_view& line) {
 
 /// Takes a field, not the comma behind it, off a line.
 std::string takeField(LineReader& lines, std::string_view& line) {
-  const bool is_quoted = trimmed(line).substr(0, 1) == "\"";
+  const bool is_quoted = startsWith(trimmed(line), "\"");
   std::string field;
   if (is_quoted) {
     line.remove_prefix(line.find('"') + 1);

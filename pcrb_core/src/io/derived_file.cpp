@@ -69,7 +69,7 @@ std::string generatorOf(const std::string& path, const std::string& hash) {
   std::string tool;
   bool is_of_this_file = false;
   for (const std::string& line : linesOf(sideFile(path))) {
-    if (line.compare(0, kTool.size(), kTool) == 0) tool = trimmed(line).substr(kTool.size());
+    if (startsWith(line, kTool)) tool = trimmed(line).substr(kTool.size());
     is_of_this_file = is_of_this_file || line == kOutput + hash;
   }
   return is_of_this_file ? tool : std::string();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 namespace {
@@ -44,7 +45,7 @@ class HeaderReader {
   void readLine(std::string_view line) {
     Values values;
     splitAtBlanks(line, values);
-    if (line.rfind(kViewpointComment, 0) == 0) header_.is_viewpoint_known = true;
+    if (startsWith(line, kViewpointComment)) header_.is_viewpoint_known = true;
     if (values.empty() || values[0].front() == '#') return;
     const std::string entry(values[0] == "COLUMNS" ? "FIELDS" : values[0]);
     if (has(entry)) lines_.fail(entry + " again", "it once");

@@ -137,6 +137,12 @@ void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
   }
 }
 
+std::vector<std::string> splitAtBlanks(std::string_view line) {
+  std::vector<std::string_view> fields;
+  splitAtBlanks(line, fields);
+  return {fields.begin(), fields.end()};
+}
+
 void splitAt(char separator, std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   for (;;) {

@@ -5,6 +5,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/problem/dataset_check.hpp"
 #include "pcrb_core/problem/pair_sampling.hpp"
 #include "pcrb_core/problem/perturbation.hpp"
@@ -136,9 +137,9 @@ class ProblemCheck {
   void checkIds() {
     const std::string first = problemId(files_.sequence, 0, 1);
     const std::string prefix = first.substr(0, first.size() - 2);
-    const auto others = static_cast<std::size_t>(std::count_if(
-        problems_.begin(), problems_.end(),
-        [&](const Problem& problem) { return problem.id.compare(0, prefix.size(), prefix) != 0; }));
+    const auto others = static_cast<std::size_t>(
+        std::count_if(problems_.begin(), problems_.end(),
+                      [&](const Problem& problem) { return !startsWith(problem.id, prefix); }));
     if (others == 0) return;
     find(Severity::kNote, outOf(others, problems_.size()) + " ids do not begin with " + prefix +
                               ", the CRC-32 of the sequence's name");

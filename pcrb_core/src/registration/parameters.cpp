@@ -30,11 +30,7 @@ std::string describeRange(const char* type, Number min, Number max) {
 }
 
 /// Whether a parameter is the edge of a voxel grid's cells.
-bool isLeaf(const std::string& name) {
-  const std::string ending = "_leaf";
-  return name.size() > ending.size() &&
-         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
+bool isLeaf(const std::string& name) { return endsWith(name, "_leaf") && name != "_leaf"; }
 
 class ParameterFile {
  public:

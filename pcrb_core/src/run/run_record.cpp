@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
-#include <sstream>
 
 #include "pcrb_core/io/atomic_file.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "run/run_table.hpp"
 
 namespace pcrb {
@@ -131,8 +130,8 @@ void RunRecord::noteClient(const std::string& name, const std::string& parameter
 }
 
 std::set<std::string> RunRecord::clients() const {
-  std::istringstream names(info_.client.value_or(""));
-  return {std::istream_iterator<std::string>(names), {}};
+  const auto names = splitAtBlanks(info_.client.value_or(""));
+  return {names.begin(), names.end()};
 }
 
 void RunRecord::noteUsage(double cpu_time, std::uint64_t peak_memory) {

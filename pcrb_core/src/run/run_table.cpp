@@ -1,8 +1,6 @@
 #include "run/run_table.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <sstream>
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
@@ -45,8 +43,7 @@ void readRunText(const std::string& text, double& value) {
 
 RunText runText(const std::vector<std::string>& words) { return joined(words, " "); }
 void readRunText(const std::string& text, std::vector<std::string>& words) {
-  std::istringstream stream(text);
-  words.assign(std::istream_iterator<std::string>(stream), {});
+  words = splitAtBlanks(text);
 }
 
 RunText runText(const std::vector<Kind>& kinds) {
@@ -204,8 +201,8 @@ const RunTableRow* findRunTableRow(const std::string& key) {
 
 const NamedRunTableRows* findNamedRunTableRows(const std::string& key) {
   const auto& list = namedRunTableRows();
-  const auto rows = std::find_if(
-      list.begin(), list.end(), [&](const auto& known) { return key.rfind(known.prefix, 0) == 0; });
+  const auto rows = std::find_if(list.begin(), list.end(),
+                                 [&](const auto& known) { return startsWith(key, known.prefix); });
   return rows == list.end() ? nullptr : &*rows;
 }
 

@@ -91,7 +91,7 @@ std::string describeScans(const std::vector<Result>& results) {
     errors.push_back(result.error);
     misalignments.push_back(result.initial_misalignment);
     worse += result.error > result.initial_misalignment ? 1 : 0;
-    unsettled += result.reason.rfind(kNotSettled, 0) == 0 ? 1 : 0;
+    unsettled += startsWith(result.reason, kNotSettled) ? 1 : 0;
   }
   if (errors.empty()) return "";
   const std::string of_replies = " of " + std::to_string(errors.size()) + " replies";

@@ -28,7 +28,7 @@ std::string formatParameters(const ParameterTable& table);
 const NodeParameter* findParameter(const ParameterTable& table, const std::string& name);
 
 /// Words separated by commas or white space.
-std::vector<std::string> splitWords(const std::string& text);
+std::vector<std::string> splitWords(std::string text);
 
 /// Arguments separated by white space, as in a shell: quotes, single or double, keep a value with
 /// blanks together; nothing else is special.

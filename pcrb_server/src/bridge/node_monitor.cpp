@@ -8,6 +8,7 @@
 #include <array>
 #include <utility>
 
+#include "pcrb_core/io/text.hpp"
 #include "ros/node_calls.hpp"
 #include "ros/notices.hpp"
 
@@ -23,7 +24,7 @@ constexpr double kPidLimit = 5.0;   // s for a node to say which process it is
 bool isHere(const std::string& host) {
   std::array<char, 256> name{};
   gethostname(name.data(), name.size() - 1);
-  return host == "localhost" || host.rfind("127.", 0) == 0 || host == ros::network::getHost() ||
+  return host == "localhost" || startsWith(host, "127.") || host == ros::network::getHost() ||
          host == name.data();
 }
 

@@ -79,7 +79,7 @@ std::string adviceOnMounting(const std::string& base, const std::string& scan,
                              const std::set<std::string>& frames) {
   std::vector<std::string> shown;
   std::copy_if(frames.begin(), frames.end(), std::back_inserter(shown),
-               [](const std::string& frame) { return frame.rfind("pcrb_", 0) != 0; });
+               [](const std::string& frame) { return !startsWith(frame, "pcrb_"); });
   const std::string known = shown.empty() ? "nothing is on tf" : "on tf are " + joined(shown, " ");
   return known + ": start what publishes the link, set " + howToSet("tf_base_scan", "static") +
          " if " + scan + " is where " + base + " is, or other frames (base_frame, scan_frame)";

@@ -7,6 +7,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 
@@ -207,10 +208,10 @@ void NodeParameters::checkNames() {
   node_.getParamNames(names);
   const std::string prefix = node_.getNamespace() + "/";
   for (const auto& name : names) {
-    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    if (!startsWith(name, prefix)) continue;
     std::string rest = name.substr(prefix.size());
     for (const std::string& group : {group_, defaults_}) {
-      if (!group.empty() && rest.rfind(group + "/", 0) == 0) rest.erase(0, group.size() + 1);
+      if (!group.empty() && startsWith(rest, group + "/")) rest.erase(0, group.size() + 1);
     }
     const std::string key = rest.substr(0, rest.find('/'));
     if (asked_.insert(key).second) addMistake("~" + key + ": no parameter of this node");

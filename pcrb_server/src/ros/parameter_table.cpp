@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb {
 
@@ -77,18 +78,10 @@ const NodeParameter* findParameter(const ParameterTable& table, const std::strin
   return found == table.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> splitWords(const std::string& text) {
-  std::vector<std::string> words;
-  std::string word;
-  for (const char c : text + " ") {
-    if (c != ' ' && c != ',' && c != '\t' && c != '\n') {
-      word += c;
-    } else if (!word.empty()) {
-      words.push_back(word);
-      word.clear();
-    }
-  }
-  return words;
+std::vector<std::string> splitWords(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == ',' || c == '\n'; }, ' ');
+  return splitAtBlanks(text);
 }
 
 std::vector<std::string> splitArguments(const std::string& name, const std::string& text) {
@@ -129,8 +122,7 @@ std::string relativePathMistake(const std::string& argument, const std::string& 
   if (path.empty() || path.front() == '/') return "";
   return "found `" + path +
          "`, expected an absolute path: roslaunch starts programs in another folder; write " +
-         argument +
-         (path.compare(0, 2, "~/") == 0 ? ":=$HOME/" + path.substr(2) : ":=$PWD/" + path);
+         argument + (startsWith(path, "~/") ? ":=$HOME/" + path.substr(2) : ":=$PWD/" + path);
 }
 
 // wordexp() of glibc 2.36 takes ${NAME:-other} for an error where unset names are one.

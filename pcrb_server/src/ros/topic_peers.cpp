@@ -5,28 +5,14 @@
 #include <ros/this_node.h>
 
 #include <algorithm>
-#include <iterator>
-#include <sstream>
 
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "ros/notices.hpp"
 
 namespace pcrb {
 
-namespace {
-
-bool beginsWith(const std::string& text, const std::string& prefix) {
-  return text.rfind(prefix, 0) == 0;
-}
-
-std::vector<std::string> wordsOf(const std::string& text) {
-  std::istringstream stream(text);
-  return {std::istream_iterator<std::string>(stream), {}};
-}
-
-}  // namespace
-
-SubscriberNames::SubscriberNames() : SubscriberNames(wordsOf(kObservers)) {}
+SubscriberNames::SubscriberNames() : SubscriberNames(splitAtBlanks(kObservers)) {}
 
 SubscriberNames::SubscriberNames(std::vector<std::string> observers)
     : observers_(std::move(observers)) {}
@@ -34,10 +20,10 @@ SubscriberNames::SubscriberNames(std::vector<std::string> observers)
 bool SubscriberNames::isObserver(const std::string& node) const {
   const std::string name = node.substr(node.rfind('/') + 1);
   for (const auto& observer : observers_) {
-    if (beginsWith(name, observer)) return true;
+    if (startsWith(name, observer)) return true;
   }
   for (const std::string prefix : {"record_", "play_"}) {  // rosbag's, which end with a time
-    const bool is_bag = beginsWith(name, prefix) && name.size() > prefix.size() &&
+    const bool is_bag = startsWith(name, prefix) && name.size() > prefix.size() &&
                         name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
     if (is_bag) return true;
   }

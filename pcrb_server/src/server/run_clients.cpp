@@ -29,9 +29,7 @@ constexpr double kReminderPeriod = 5.0;                      // s
 constexpr auto kProvenanceLimit = std::chrono::seconds(30);  // for node_supervisor to note it
 
 std::string joinNames(const std::set<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : " ") + name;
-  return text.empty() ? "nobody" : text;
+  return names.empty() ? "nobody" : joined(names, " ");
 }
 
 /// Other nodes that publish what the server publishes, each with its topic; empty for none.
@@ -48,7 +46,7 @@ std::string conflictingPublishers() {
 
 /// What is not one of the bridge's parameters in a recipe that was loaded whole: words about it.
 bool isOfARecipe(const std::string& name) {
-  return name.rfind("recipe/", 0) == 0 && name.rfind("recipe/bridge/", 0) != 0;
+  return startsWith(name, "recipe/") && !startsWith(name, "recipe/bridge/");
 }
 
 /// A parameter and those below it, `name: value` each, a line each.

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "pcrb_core/io/text.hpp"
+
 namespace pcrb {
 
 std::vector<std::string> launchArguments(std::string_view command_line,
@@ -18,7 +20,7 @@ std::vector<std::string> launchArguments(std::string_view command_line,
     const std::size_t sign = word.find(":=");
     if (sign == std::string_view::npos) {
       is_its_file = is_its_file || word.substr(word.rfind('/') + 1) == launch_file;
-    } else if (word.substr(0, 1) != "_") {  // __name and the like are ROS's
+    } else if (!startsWith(word, "_")) {  // __name and the like are ROS's
       names.emplace_back(word.substr(0, sign));
     }
   }

@@ -21,10 +21,6 @@ constexpr std::size_t kBlockSize = 1 << 18;
 constexpr std::uint64_t kMaxExpansion = 100;
 constexpr std::uint64_t kHarmlessSize = 1 << 20;  ///< bytes, whatever the archive's size
 
-bool endsWith(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
 bool hasControlCharacter(const std::string& name) {
   return std::any_of(name.begin(), name.end(),
                      [](unsigned char c) { return c < 0x20 || c == 0x7f; });
@@ -61,7 +57,7 @@ bool isArchiveName(const std::string& path) {
   constexpr std::array<std::string_view, 6> kEnds = {".zip",    ".tar",     ".tgz",
                                                      ".tar.gz", ".tar.bz2", ".tar.xz"};
   return std::any_of(kEnds.begin(), kEnds.end(),
-                     [&path](std::string_view end) { return endsWith(path, end); });
+                     [&path](std::string_view end) { return pcrb::endsWith(path, end); });
 }
 
 std::string requirePlainEntryName(const std::string& name, const std::string& archive_path) {

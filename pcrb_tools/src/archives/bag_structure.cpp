@@ -10,6 +10,7 @@
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/foreign_data.hpp"
 #include "pcrb_core/io/memory_budget.hpp"
+#include "pcrb_core/io/text.hpp"
 
 namespace pcrb_tools {
 namespace {
@@ -195,9 +196,7 @@ void requireRos1Bag(const std::string& path) {
   if (!begin) throw pcrb::InvalidFile(path, 0, "nothing that can be read", "a bag of ROS 1");
   const std::string& start = *begin;
   pcrb::requireData(start, path);
-  const auto begins = [&](std::string_view with) {
-    return start.compare(0, with.size(), with) == 0;
-  };
+  const auto begins = [&](std::string_view with) { return pcrb::startsWith(start, with); };
   if (begins(kBagMagic)) return;
   const char* const convert = "a bag of ROS 1 (rosbags-convert makes one of it)";
   if (begins("SQLite format 3"))

@@ -103,7 +103,7 @@ int numberOfShards(const BatchOptions& options) {
   if (options.shards > 0) return options.shards;
   const auto lines = readLines(noteFile(options));
   if (lines.empty()) return options.jobs;
-  const bool is_number = lines.front().rfind(kShards, 0) == 0;
+  const bool is_number = pcrb::startsWith(lines.front(), kShards);
   const auto noted =
       is_number ? pcrb::parseInt(lines.front().substr(std::string(kShards).size())) : std::nullopt;
   if (!noted || *noted < 1) {

@@ -17,6 +17,7 @@
 #include "common/progress.hpp"
 #include "common/tool_main.hpp"
 #include "pcrb_core/error.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/run/merge_runs.hpp"
 
 namespace pcrb_tools {
@@ -69,7 +70,7 @@ class Batch {
 std::string subjectOf(const BatchOptions& options) {
   for (const std::string prefix : {"client_command:=", "method:=", "node:=", "node_launch:="}) {
     for (const std::string& argument : options.arguments) {
-      if (argument.rfind(prefix, 0) != 0) continue;
+      if (!pcrb::startsWith(argument, prefix)) continue;
       const std::string subject = argument.substr(prefix.size());
       return subject.size() <= kLongestSubject
                  ? subject
@@ -229,7 +230,8 @@ std::vector<std::string> launchArguments(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = withHomeFolder(argv[i]);
     const bool is_of_launch_file = argument.find(":=") != std::string::npos &&
-                                   argument.rfind("__", 0) != 0 && argument.rfind(":=", 0) != 0;
+                                   !pcrb::startsWith(argument, "__") &&
+                                   !pcrb::startsWith(argument, ":=");
     if (is_of_launch_file) arguments.push_back(argument);
   }
   return arguments;

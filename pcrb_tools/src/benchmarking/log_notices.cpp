@@ -18,10 +18,6 @@ constexpr const char* kTraceback = "Traceback (most recent call last):";
 constexpr std::array<const char*, 4> kSpeakers{"benchmark_server", "localization_bridge",
                                                "node_supervisor", "registration_node"};
 
-bool startsWith(const std::string& line, const std::string& start) {
-  return line.rfind(start, 0) == 0;
-}
-
 std::string withoutColours(const std::string& line) {
   static const std::regex kColour("\033\\[[0-9;]*m|\033\\][^\a]*\a");
   return std::regex_replace(line, kColour, "");
@@ -30,7 +26,7 @@ std::string withoutColours(const std::string& line) {
 /// The node of the suite that tells people a line; empty for other lines.
 std::string speakerOf(const std::string& line) {
   for (const std::string speaker : kSpeakers) {
-    if (startsWith(line, "[" + speaker + "] ")) return speaker;
+    if (pcrb::startsWith(line, "[" + speaker + "] ")) return speaker;
   }
   return "";
 }
@@ -49,8 +45,8 @@ std::string errorOfNode(const std::string& line) {
   if (std::regex_search(text, found, kDeath)) {
     return text.substr(0, text.find(']') + 1) + " process has died, " + found.str(1);
   }
-  const bool is_error = startsWith(text, "ERROR: cannot launch") ||
-                        startsWith(text, "  what(): ") ||
+  const bool is_error = pcrb::startsWith(text, "ERROR: cannot launch") ||
+                        pcrb::startsWith(text, "  what(): ") ||
                         text.find("error while loading shared libraries") != std::string::npos;
   return is_error ? text.substr(text.find_first_not_of(' ')) : "";
 }
@@ -82,7 +78,7 @@ std::string LogNotices::last(const std::string& node) const {
 }
 
 void LogNotices::take(const std::string& line, bool with_errors, std::vector<std::string>& texts) {
-  if (!speaker_.empty() && startsWith(line, "  ")) {
+  if (!speaker_.empty() && pcrb::startsWith(line, "  ")) {
     text_ += "\n" + pcrb::printableText(line);
     return;
   }
@@ -92,7 +88,7 @@ void LogNotices::take(const std::string& line, bool with_errors, std::vector<std
   if (!speaker_.empty() || !with_errors) return;
   const bool is_end_of_traceback = is_traceback_ && !line.empty() && line.front() != ' ';
   takeError(is_end_of_traceback ? line : errorOfNode(line), texts);
-  is_traceback_ = startsWith(line, kTraceback) || (is_traceback_ && !is_end_of_traceback);
+  is_traceback_ = pcrb::startsWith(line, kTraceback) || (is_traceback_ && !is_end_of_traceback);
 }
 
 void LogNotices::finishNotice(std::vector<std::string>& texts) {

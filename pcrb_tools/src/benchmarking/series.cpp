@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 std::string argumentOf(const BatchOptions& options, const std::string& name) {
   const std::string prefix = name + ":=";
   for (const std::string& argument : options.arguments) {
-    if (argument.rfind(prefix, 0) == 0) return argument.substr(prefix.size());
+    if (pcrb::startsWith(argument, prefix)) return argument.substr(prefix.size());
   }
   return "";
 }
@@ -60,7 +60,7 @@ std::vector<std::string> sweptArguments(const BatchOptions& options, const Serie
   pcrb::writeFileAtomically(path, parametersOf(options, run));
   std::vector<std::string> arguments;
   for (const std::string& argument : options.arguments) {
-    if (argument.rfind("parameters:=", 0) != 0) arguments.push_back(argument);
+    if (!pcrb::startsWith(argument, "parameters:=")) arguments.push_back(argument);
   }
   arguments.push_back("parameters:=" + path);
   return arguments;

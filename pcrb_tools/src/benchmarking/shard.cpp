@@ -10,6 +10,7 @@
 
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/run/merge_runs.hpp"
 #include "pcrb_core/run/run_info.hpp"
 
@@ -170,14 +171,14 @@ std::string Shard::lastError() const {
   std::string error;
   bool goes_on = false;
   while (std::getline(log, line)) {
-    if (line.rfind("\033[", 0) == 0) line.erase(0, line.find('m') + 1);  // roslaunch's colours
-    const auto begins = [&line](const char* start) { return line.rfind(start, 0) == 0; };
+    if (pcrb::startsWith(line, "\033[")) line.erase(0, line.find('m') + 1);  // roslaunch's colours
+    const auto begins = [&line](const char* start) { return pcrb::startsWith(line, start); };
     const bool is_error = std::any_of(kErrorPrefixes.begin(), kErrorPrefixes.end(), begins);
     goes_on = is_error || (goes_on && begins("  "));
     if (is_error) error = line;
     if (goes_on && !is_error) error += ";" + line.substr(1);
   }
-  if (error.rfind(kNoClient, 0) == 0 && notices_) {
+  if (pcrb::startsWith(error, kNoClient) && notices_) {
     const std::string wait = notices_->last("localization_bridge");
     if (!wait.empty()) error += "; localization_bridge: " + wait;
   }

@@ -50,9 +50,7 @@ std::vector<std::string> argumentsForCli(int argc, char** argv) {
 /// Of the tools that launch files wrap: roslaunch, which appends `__name:=…`, starts them in
 /// another folder.
 void requireAbsolutePaths(const CLI::App& app, int argc, char** argv) {
-  const auto is_roslaunchs = [](const char* word) {
-    return std::string_view(word).rfind("__name:=", 0) == 0;
-  };
+  const auto is_roslaunchs = [](const char* word) { return pcrb::startsWith(word, "__name:="); };
   if (std::none_of(argv, argv + argc, is_roslaunchs)) return;
   for (const std::string name : {"logs", "root", "run"}) {
     const CLI::Option* const option = app.get_option_no_throw("--" + name);

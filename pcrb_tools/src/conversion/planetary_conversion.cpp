@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <utility>
 
 #include "conversion/conversion.hpp"
@@ -10,15 +11,10 @@ namespace pcrb_tools {
 namespace {
 
 bool hasExtension(const LogFile& file, const std::string& extension) {
-  const std::string name = file.fileName();
-  return name.size() > extension.size() &&
-         name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
+  return std::filesystem::path(file.fileName()).extension() == extension;
 }
 
-std::string stemOf(const LogFile& file) {
-  const std::string name = file.fileName();
-  return name.substr(0, name.rfind('.'));
-}
+std::string stemOf(const LogFile& file) { return std::filesystem::path(file.fileName()).stem(); }
 
 /// Files with an extension by their names without it.
 std::map<std::string, std::size_t> findByStem(const LogFiles& files, const std::string& extension) {

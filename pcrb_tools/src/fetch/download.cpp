@@ -50,12 +50,7 @@ std::optional<std::string> part(CURLU* url, CURLUPart which) {
 }
 
 bool isGoogle(const std::string& host) {
-  for (const std::string_view end : {".google.com", ".googleusercontent.com"}) {
-    if (host.size() > end.size() && host.compare(host.size() - end.size(), end.size(), end) == 0) {
-      return true;
-    }
-  }
-  return false;
+  return pcrb::endsWith(host, ".google.com") || pcrb::endsWith(host, ".googleusercontent.com");
 }
 
 /// Adds `name=value` to the URL's query.

@@ -15,9 +15,10 @@ constexpr std::size_t kMaxHtml = 4 << 20;
 }  // namespace
 
 void Response::readHeader(std::string_view line) {
-  if (line.substr(0, 5) == "HTTP/") {  // of a redirection or of the final response: forget the last
+  if (pcrb::startsWith(line,
+                       "HTTP/")) {  // of a redirection or of the final response: forget the last
     is_http = true;
-    is_framed = line.substr(0, 7) != "HTTP/1.";
+    is_framed = !pcrb::startsWith(line, "HTTP/1.");
     is_html = false;
     etag.clear();
     last_modified.clear();
@@ -34,7 +35,7 @@ void Response::readHeader(std::string_view line) {
   std::string_view value = line.substr(colon + 1);
   while (!value.empty() && (value.back() == '\r' || value.back() == '\n')) value.remove_suffix(1);
   value = pcrb::trimmed(value);
-  if (name == "etag" && value.substr(0, 2) != "W/") etag = value;
+  if (name == "etag" && !pcrb::startsWith(value, "W/")) etag = value;
   if (name == "last-modified") last_modified = value;
   if (name == "content-range") content_range = value;
   if (name == "content-length" || name == "transfer-encoding") is_framed = true;
@@ -45,8 +46,7 @@ bool Response::open() {
   // 200 to a request for a rest: the server sends the whole file, of another version or always.
   if (is_http && status != 206) offset = 0;
   const std::string expected = "bytes " + std::to_string(offset) + "-";
-  is_other_range =
-      offset > 0 && is_http && content_range.compare(0, expected.size(), expected) != 0;
+  is_other_range = offset > 0 && is_http && !pcrb::startsWith(content_range, expected);
   if (is_other_range) return false;
   file.reset(std::fopen(part.c_str(), offset == 0 ? "wb" : "ab"));
   if (!file) {

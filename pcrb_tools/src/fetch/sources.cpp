@@ -76,7 +76,7 @@ class SourceReader {
   std::string url(const YAML::Node& node) const {
     const std::string value = text(node);
     for (const char* scheme : {"http://", "https://", "ftp://"}) {
-      if (value.compare(0, std::string(scheme).size(), scheme) == 0) return value;
+      if (pcrb::startsWith(value, scheme)) return value;
     }
     fail(node, pcrb::inQuotes(value), "an address of http, https or ftp");
   }

@@ -157,7 +157,7 @@ std::string Transfer::perform(const std::string& url, const std::string& validat
   }
   const std::unique_ptr<curl_slist, void (*)(curl_slist*)> owner(headers, &curl_slist_free_all);
   const std::string range = std::to_string(response.offset) + "-";
-  const bool is_encrypted = url.compare(0, 6, "https:") == 0;  // and stays so when redirected
+  const bool is_encrypted = pcrb::startsWith(url, "https:");  // and stays so when redirected
   const auto set = [this](auto option, auto value) { curl_easy_setopt(handle_, option, value); };
   set(CURLOPT_URL, url.c_str());
 #if CURL_AT_LEAST_VERSION(7, 85, 0)

@@ -11,6 +11,7 @@
 #include "pcrb_core/datasets/tum.hpp"
 #include "pcrb_core/error.hpp"
 #include "pcrb_core/io/pcd.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "preparation/preparation.hpp"
 
 namespace pcrb_tools {
@@ -59,7 +60,7 @@ ByName groupBy(const std::vector<fs::path>& paths,
 
 std::string planetarySet(const std::string& stem) {
   for (const char* set : {"box_met", "p2at_met"}) {
-    if (stem.compare(0, std::string(set).size(), set) == 0) return set;
+    if (pcrb::startsWith(stem, set)) return set;
   }
   return {};
 }

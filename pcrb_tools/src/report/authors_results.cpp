@@ -15,11 +15,7 @@ constexpr const char* kAuthorsColumns =
     "id;initial_error;final_error;transformation, perhaps with further ones";
 constexpr std::size_t kMatrixNumbers = 16;
 
-bool startsWith(std::string_view text, std::string_view beginning) {
-  return text.substr(0, beginning.size()) == beginning;
-}
-
-bool isComment(std::string_view line) { return startsWith(pcrb::trimmed(line), "#"); }
+bool isComment(std::string_view line) { return pcrb::startsWith(pcrb::trimmed(line), "#"); }
 
 double authorsError(const pcrb::LineReader& lines, std::string_view field) {
   const auto value = pcrb::parseDouble(field);
@@ -118,8 +114,8 @@ pcrb::ProblemKey keyOfFile(const std::string& path,
 
 /// The authors' programs write their command first; that of PPCR is known.
 std::string authorsMethod(const std::string& path, std::string_view command) {
-  while (startsWith(command, "#") || startsWith(command, ";")) command.remove_prefix(1);
-  if (startsWith(pcrb::trimmed(command), "prob_registration")) return "ppcr";
+  while (pcrb::startsWith(command, "#") || pcrb::startsWith(command, ";")) command.remove_prefix(1);
+  if (pcrb::startsWith(pcrb::trimmed(command), "prob_registration")) return "ppcr";
   const auto folder = std::filesystem::absolute(path).lexically_normal().parent_path();
   return folder.filename().string();
 }
@@ -130,7 +126,7 @@ bool isAuthorsResult(std::string_view text, const std::string& path) {
   pcrb::LineReader lines(text, path);
   std::string_view line;
   if (!lines.nextRow(line)) return false;
-  const bool has_command = startsWith(line, "#;");
+  const bool has_command = pcrb::startsWith(line, "#;");
   while (isComment(line) && lines.nextRow(line)) continue;
   return has_command || isAuthorsHeader(line);
 }

@@ -36,7 +36,7 @@ std::size_t sequencePlace(const std::string& text, const std::string& method,
     if (text.compare(start, ending.size(), ending) == 0) place = std::min(place, start + 1);
   }
   if (place < text.size()) return place;
-  if (!method.empty() && text.rfind(method + "_", 0) == 0) return method.size() + 1;
+  if (!method.empty() && pcrb::startsWith(text, method + "_")) return method.size() + 1;
   const std::size_t first = text.find('_');
   return first == 0 || first == std::string::npos ? text.size() : first + 1;
 }

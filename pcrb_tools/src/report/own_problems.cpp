@@ -4,6 +4,7 @@
 #include "pcrb_core/io/derived_file.hpp"
 #include "pcrb_core/io/file_bytes.hpp"
 #include "pcrb_core/io/number.hpp"
+#include "pcrb_core/io/text.hpp"
 #include "pcrb_core/problem/problem.hpp"
 #include "report/published.hpp"
 #include "report/section.hpp"
@@ -18,9 +19,8 @@ constexpr std::size_t kPublishedDigits = 4;     // of 31 · 100 - 1 and of 31 ·
 std::string indexOf(const pcrb::ProblemKey& key) {
   const std::string first = pcrb::problemId(key.sequence, 0, 1);  // with an index of two digits
   const std::string prefix = first.substr(0, first.size() - 2);
-  return key.problem_id.compare(0, prefix.size(), prefix) == 0
-             ? key.problem_id.substr(prefix.size())
-             : std::string();
+  return pcrb::startsWith(key.problem_id, prefix) ? key.problem_id.substr(prefix.size())
+                                                  : std::string();
 }
 
 using SequenceKey = std::pair<std::string, std::string>;  // data set, sequence

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "pcrb_core/evaluation/rank_tests.hpp"
 #include "pcrb_core/evaluation/statistics.hpp"
 #include "report/section_tables.hpp"
 
@@ -56,18 +57,6 @@ std::vector<std::vector<double>> mediansByPair(const std::vector<const Entry*>& 
   return medians;
 }
 
-/// From 1; equal values share the mean of their places.
-std::vector<double> ranksOf(const std::vector<double>& values) {
-  std::vector<double> ranks;
-  for (const double value : values) {
-    const auto less =
-        std::count_if(values.begin(), values.end(), [&](double v) { return v < value; });
-    const auto same = std::count(values.begin(), values.end(), value);
-    ranks.push_back(static_cast<double>(less) + 0.5 * static_cast<double>(same + 1));
-  }
-  return ranks;
-}
-
 struct Ranked {
   std::string method;
   double rank;
@@ -78,7 +67,7 @@ std::vector<Ranked> meanRanks(const std::vector<const Entry*>& entries,
   std::vector<Ranked> ranked;
   for (const Entry* entry : entries) ranked.push_back({entry->method, 0.0});
   for (const auto& row : medians) {
-    const std::vector<double> ranks = ranksOf(row);
+    const std::vector<double> ranks = pcrb::ranks(row);
     for (std::size_t i = 0; i < ranks.size(); ++i) {
       ranked[i].rank += ranks[i];
     }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pcrb_core/datasets/stamp.hpp"
 #include "pcrb_core/io/number.hpp"
 #include "pcrb_core/parallel.hpp"
 #include "simulation/depth_camera.hpp"
@@ -159,11 +160,7 @@ std::string bagFile(const TumSequence& sequence) {
 }
 
 /// `1311877977.413521548.pcd`.
-std::string cloudName(std::int64_t stamp_ns) {
-  const std::string nanoseconds = std::to_string(stamp_ns % 1000000000);
-  return std::to_string(stamp_ns / 1000000000) + "." + std::string(9 - nanoseconds.size(), '0') +
-         nanoseconds + ".pcd";
-}
+std::string cloudName(pcrb::Stamp stamp) { return pcrb::formatStamp(stamp) + ".pcd"; }
 
 }  // namespace
 

@@ -50,6 +50,9 @@ class LineReader {
 /// Replaces `fields` by the parts of a line between runs of spaces and tabs.
 void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields);
 
+/// The parts of a line between runs of spaces and tabs.
+std::vector<std::string> splitAtBlanks(std::string_view line);
+
 /// Replaces `fields` by the parts of a line between separators, blanks around them removed; an
 /// empty line is one empty field.
 void splitAt(char separator, std::string_view line, std::vector<std::string_view>& fields);
@@ -62,6 +65,14 @@ inline const char* skipBlanks(const char* at, const char* end) {
 
 /// The text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
+
+inline bool startsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+inline bool endsWith(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
 
 /// The text with small letters for ASCII's capitals.
 std::string inSmallLetters(std::string_view text);
