@@ -12,7 +12,7 @@ import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pcrb_testing_data as maths
-from pcrb_testing import Child, Launch, TestCase, executable, rows, run_info, wait_until
+from pcrb_testing import Child, Launch, TestCase, executable, forget_results, rows, run_info, wait_until
 
 
 class ParametersTest(TestCase):
@@ -176,8 +176,7 @@ class ParametersTest(TestCase):
         self.assert_ends_well(node)
         self.assert_ends_well(first)
         self.assert_goes_on_with_the_same_file_only(first)
-        with contextlib.closing(sqlite3.connect(os.path.join(first.run, 'results.sqlite'))) as store, store:
-            store.execute("DELETE FROM result WHERE sequence = 'hall'")
+        forget_results(first.run, "sequence = 'hall'")
         self.assertEqual(len(first.rows()), len(self.data.of('local', 'kitchen')))
         self.assert_goes_on_with_the_same_file_only(first)
 

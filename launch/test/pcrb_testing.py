@@ -146,6 +146,12 @@ def select(run, table, query):
         return [dict(row) for row in store.execute(query)]
 
 
+def forget_results(run, condition):
+    """So that a run has problems to go on with."""
+    with contextlib.closing(sqlite3.connect(os.path.join(run, 'results.sqlite'))) as store, store:
+        store.execute(f'DELETE FROM result WHERE {condition}')
+
+
 def rows(run):
     """The result table, in the order in which it was filled."""
     return select(run, 'result', 'SELECT * FROM result ORDER BY finished')

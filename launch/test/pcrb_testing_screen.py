@@ -58,8 +58,8 @@ def count(picture, color):
 def started_and_seen(start, end, screen, background, colors):
     """A program that start() starts, and the part of the screen with that background, once it shows all the colours.
 
-    end(program) ends it, and it is started once more, if it shows nothing: that rviz misses latched messages was seen once in CI, and not in 750 starts
-    of one configuration here.
+    end(program) ends it, and it is started once more, if it shows nothing: that rviz misses latched messages was seen once in CI,
+    and not in 750 starts of one configuration here.
     """
     program = start()
     try:

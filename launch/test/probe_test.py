@@ -41,7 +41,7 @@ class ProbeTest(TestCase):
         (_, ndt, text), (_, particle, _), (_, smoothing, of_smoothing) = self.probes(
             [('ndt',), ('particle',), ('smoothing', '--output', self.path('recipe.yaml'))])
         self.assertEqual(ndt, {'map_topic': '/map_cloud', 'scan_topic': '/scan_cloud', 'pose_topic': '/ndt_pose', 'settle': 'first'})
-        self.assertRegex(text, '(9|10) of 10 scans were answered')
+        self.assertIn('10 of 10 scans were answered', text)
         self.assertEqual((particle['pose_topic'], particle['tf_odom_base']), ('tf', 'dynamic'))
         self.assertEqual((smoothing['pose_topic'], smoothing['settle']), ('/odom', 'stable'))
         self.assertIn('its first answer repeats the initial pose', of_smoothing)

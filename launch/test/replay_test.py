@@ -242,7 +242,7 @@ class ReplayTest(TestCase):
         self.assert_fails(self.replay(run=self.path('run')), 'hall_local.txt has changed since the run used it')
 
     def test_plays_pauses_steps_and_loops(self):
-        replay = self.replay(root=self.data.root, sequence='kitchen', loop=True, rate=5)  # a test that stands still misses nothing
+        replay = self.replay(root=self.data.root, sequence='kitchen', loop=True, rate=1)  # it pauses between two scenes, not while it reads one
         self.step('scan')
         self.step('scan')
         self.assertEqual(len(self.viewer.of('scan')), 2)
@@ -252,7 +252,7 @@ class ReplayTest(TestCase):
         wait_until(lambda: len(self.viewer.of('scan')) == replay.output().count('/3 kitchen'), 'all scenes are seen')
         before = len(self.viewer.of('scan'))
         self.step('scan')
-        self.assertIn(len(self.viewer.of('scan')) - before, (1, 2), 'that one, and one that was being read when it paused')
+        self.assertEqual(len(self.viewer.of('scan')), before + 1)
         replay.interrupt()
         self.assert_ends_well(replay)
 

@@ -1,9 +1,7 @@
 #!/usr/bin/env python3
 """localization.launch with a node that is started anew on purpose, or cannot be started; node_supervisor alone."""
-import contextlib
 import os
 import re
-import sqlite3
 import subprocess
 import sys
 
@@ -12,7 +10,7 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pcrb_testing import Child, executable, rows, run_info, wait_until
+from pcrb_testing import Child, executable, forget_results, rows, run_info, wait_until
 from pcrb_testing_bridge import SupervisedTestCase
 
 
@@ -72,8 +70,7 @@ class SupervisorTest(SupervisedTestCase):
         kinds = [' '.join(line.split()[:3]) for line in noted if line.startswith('node ')]
         for kind in ('node file mine.launch:', 'node file ndt_localizer.launch:', 'node program localization_standins/ndt_localizer:'):
             self.assertIn(kind, kinds)
-        with contextlib.closing(sqlite3.connect(os.path.join(self.path('run'), 'results.sqlite'))) as store, store:
-            store.execute('DELETE FROM result WHERE source = (SELECT MIN(source) FROM result)')  # so that it has something to go on with
+        forget_results(self.path('run'), 'source = (SELECT MIN(source) FROM result)')  # so that it has something to go on with
         self.assertRegex(launch(steps=30), r'client_parameters: the run has `node file mine\.launch: [0-9a-f]{16}, node '
                          r'/ndt_localizer/steps: 20`, asked for `node file mine\.launch: [0-9a-f]{16}, node /ndt_localizer/steps: 30`')
         self.assertNotIn('client_parameters: ', launch(steps=20))

@@ -15,9 +15,8 @@ constexpr std::size_t kMaxHtml = 4 << 20;
 }  // namespace
 
 void Response::readHeader(std::string_view line) {
-  if (pcrb::startsWith(line,
-                       "HTTP/")) {  // of a redirection or of the final response: forget the last
-    is_http = true;
+  if (pcrb::startsWith(line, "HTTP/")) {
+    is_http = true;  // of a redirection or of the final response: forget the last
     is_framed = !pcrb::startsWith(line, "HTTP/1.");
     is_html = false;
     etag.clear();
